@@ -1,9 +1,11 @@
-# Combines the page of --html from src/page/ and three.js, and embeds it.
-#   medial_vk_bundle_page(TARGET)
-# adds to TARGET a source that defines page::embedded_page() (src/output/page/embedded_page.h). Without npm, or if its
-# packages cannot be obtained, the page is empty and the build continues: --html then reports the missing program. The
-# packages are sought at every configuration until they are present.
-option(MEDIAL_VK_PAGE "Bundle the page that --html writes (needs node and npm)" ON)
+# Combines the pages of --html from src/page/ and three.js, and embeds them.
+#   medial_vk_fetch_page_packages(FOLDER result)
+#   medial_vk_bundle_page(TARGET PAGE HEADER PACKAGES)
+# adds to TARGET a source that defines page::embedded_PAGE(), which HEADER declares: src/page/bundle.mjs defines the pages,
+# and PACKAGES is the result of the first call. Without npm, or if its packages cannot be obtained, the pages are empty and
+# the build continues: --html then reports the missing program. The packages are sought at every configuration until they
+# are present.
+option(MEDIAL_VK_PAGE "Bundle the pages that --html writes (needs node and npm)" ON)
 
 # Sets RESULT to the folder with the packages of src/page/package-lock.json, or to nothing after a message with the
 # reason.
@@ -53,29 +55,28 @@ function(medial_vk_fetch_page_packages folder result)
   set(${result} ${folder}/node_modules PARENT_SCOPE)
 endfunction()
 
-function(medial_vk_bundle_page target)
+function(medial_vk_bundle_page target name header packages)
   set(out ${CMAKE_CURRENT_BINARY_DIR}/page)
-  medial_vk_fetch_page_packages(${out} packages)
   set(page "")
   if(packages)
-    set(page ${out}/page.html)
+    set(page ${out}/${name}.html)
     set(sources ${PROJECT_SOURCE_DIR}/src/page)
-    file(GLOB inputs CONFIGURE_DEPENDS ${sources}/*.js ${sources}/*.mjs ${sources}/*.css ${sources}/*.html
-         ${sources}/shaders/*.glsl)
+    file(GLOB_RECURSE inputs CONFIGURE_DEPENDS ${sources}/*.js ${sources}/*.mjs ${sources}/*.css ${sources}/*.html
+         ${sources}/*.glsl)
     add_custom_command(OUTPUT ${page}
-      COMMAND ${NODE_PROGRAM} ${sources}/bundle.mjs ${packages} ${page}
-      DEPENDS ${inputs} ${out}/fetched COMMENT "Page of --html" VERBATIM)
+      COMMAND ${NODE_PROGRAM} ${sources}/bundle.mjs ${packages} ${name} ${page}
+      DEPENDS ${inputs} ${out}/fetched COMMENT "Bundling ${name} of --html" VERBATIM)
   endif()
   set(script ${PROJECT_SOURCE_DIR}/cmake/WriteEmbeddedPage.cmake)
-  # The name depends on whether there is a page, so that the other source is generated when npm appears or disappears.
+  # The file depends on whether there is a page, so that the other source is generated when npm appears or disappears.
   if(packages)
-    set(embedded ${out}/embedded_page.cpp)
+    set(embedded ${out}/embedded_${name}.cpp)
   else()
-    set(embedded ${out}/no_page.cpp)
-    file(REMOVE ${out}/page.html)
+    set(embedded ${out}/no_${name}.cpp)
+    file(REMOVE ${out}/${name}.html)
   endif()
   add_custom_command(OUTPUT ${embedded}
-    COMMAND ${CMAKE_COMMAND} -DOUTPUT=${embedded} -DPAGE=${page} -P ${script}
-    DEPENDS ${page} ${script} COMMENT "Embedding the page of --html" VERBATIM)
+    COMMAND ${CMAKE_COMMAND} -DOUTPUT=${embedded} -DPAGE=${page} -DNAME=${name} -DHEADER=${header} -P ${script}
+    DEPENDS ${page} ${script} COMMENT "Embedding ${name} of --html" VERBATIM)
   target_sources(${target} PRIVATE ${embedded})
 endfunction()

@@ -1,13 +1,21 @@
-// Bundles the page: page.html with the styles, the program and the licences of its libraries, and the two marks where
+// Bundles a page: its HTML with the styles, the program and the licences of its libraries, and the two marks where
 // medial-vk writes the title and the data.
-//   node bundle.mjs NODE_MODULES OUTPUT.html
+//   node bundle.mjs NODE_MODULES PAGE OUTPUT.html
+// PAGE: one of kPages.
 import {createHash} from 'node:crypto';
 import {readFileSync, writeFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {dirname, join} from 'node:path';
 import {fileURLToPath} from 'node:url';
 
-const [packages, output] = process.argv.slice(2);
+const kPages = {
+  page: {html: 'page.html', style: 'page.css', script: 'main.js'},
+  motion: {html: 'motion/motion.html', style: 'motion/motion.css', script: 'motion/main.js'},
+};
+
+const [packages, name, output] = process.argv.slice(2);
+const sources = kPages[name];
+if (!sources) throw new Error(`no page ${name}; there are: ${Object.keys(kPages).join(' ')}`);
 const here = dirname(fileURLToPath(import.meta.url));
 const {buildSync} = createRequire(join(packages, 'any.js'))('esbuild');
 
@@ -36,16 +44,16 @@ function policy(script, style) {
 
 function fill(template, parts) {
   return template.replace(/<!--build: (\w+)-->/g, (_, name) => {
-    if (!(name in parts)) throw new Error(`page.html requires ${name}, which is missing`);
+    if (!(name in parts)) throw new Error(`${sources.html} requires ${name}, which is missing`);
     return parts[name];
   });
 }
 
-const script = bundle('main.js');
-const style = bundle('page.css');
+const script = bundle(sources.script);
+const style = bundle(sources.style);
 if (/<\/script|<!--/i.test(script)) throw new Error('the program would end its own element');
 const version = JSON.parse(readFileSync(join(packages, 'three/package.json'))).version;
-const page = fill(readFileSync(join(here, 'page.html'), 'utf8'), {
+const page = fill(readFileSync(join(here, sources.html), 'utf8'), {
   policy: policy(script, style),
   licence: `<!--\nThis page draws with three.js ${version}:\n\n${readFileSync(join(packages, 'three/LICENSE'), 'utf8').trim()}\n-->`,
   style: `<style>${style}</style>`,

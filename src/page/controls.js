@@ -1,9 +1,9 @@
 // The form beside the canvas, the keys, and the selection.
 import {kAttributes, kSheetColours, sheetColour, viridisGradient} from './colours.js';
 import {brief, grouped, lengthFormat} from './format.js';
+import {bindDialogs, bindFold, bindKeys, byId, followTheme, rows} from './page_parts.js';
 import {kLayers} from './viewer.js';
 
-const byId = (id) => document.getElementById(id);
 const kStep = Math.PI / 36;      // One press of an arrow key.
 const kFirstBalls = 400;         // Drawn at first: enough to fill a shape, few enough to distinguish.
 const kClick = 4;                // Pixels that the mouse may move in a click.
@@ -15,15 +15,6 @@ function rangeOf(numbers) {
     if (x > greatest) greatest = x;
   }
   return numbers.length ? [least, greatest] : [0, 0];
-}
-
-function rows(list, pairs) {
-  list.replaceChildren(...pairs.flatMap(([name, value]) => {
-    const dt = document.createElement('dt'), dd = document.createElement('dd');
-    dt.textContent = name;
-    dd.textContent = value;
-    return [dt, dd];
-  }));
 }
 
 export class Controls {
@@ -54,10 +45,10 @@ export class Controls {
       Math.PI / 2]};
     this.describeRun();
     this.bind();
-    this.bindKeys();
+    bindKeys(this.keys(), (...of) => this.ownsKey(...of));
     this.bindCanvas();
-    this.bindDialogs();
-    this.followTheme();
+    bindDialogs(['report', 'help']);
+    followTheme(this.viewer);
     for (const name of kLayers) this.viewer.showLayer(name, byId(`layer-${name}`).checked);
     byId('ball-count').value = scene.points > 1
       ? Math.round(1000 * Math.log(Math.min(kFirstBalls, scene.points)) / Math.log(scene.points)) : 1000;
@@ -86,13 +77,7 @@ export class Controls {
       this.choose(number >= 0 && number < this.scene.points ? number : -1);
     });
     byId('controls').addEventListener('submit', (event) => event.preventDefault());
-    byId('fold').addEventListener('click', () => this.fold(byId('panel').classList.contains('open')));
-  }
-
-  /** On a narrow screen the controls are folded away. */
-  fold(closed) {
-    byId('panel').classList.toggle('open', !closed);
-    byId('fold').setAttribute('aria-expanded', String(!closed));
+    bindFold();
   }
 
   /** Applies the form to the picture; this is cheap, so all of it is applied each time. */
@@ -274,41 +259,11 @@ export class Controls {
     ];
   }
 
-  bindKeys() {
-    const keys = this.keys();
-    const list = byId('keys');
-    rows(list, keys.filter(([, name]) => name).map(([, name, what]) => [name, what]));
-    document.addEventListener('keydown', (event) => {
-      if (event.ctrlKey || event.altKey || event.metaKey || document.querySelector('dialog[open]')) return;
-      const found = keys.find(([names]) => names.includes(event.key));
-      if (!found || this.ownsKey(event.target, event.key, found[4])) return;
-      event.preventDefault();
-      found[3]();
-    });
-  }
-
   /** Keys that an element of the form handles itself. */
   ownsKey(target, key, onPictureOnly) {
     if (key === 'Escape') return false;
     if (onPictureOnly) return target !== this.viewer.canvas && target !== document.body;
     if (target.matches('select, input[type=number]')) return true;
     return target.matches('input[type=range]') && (key.startsWith('Arrow') || key === '+' || key === '-');
-  }
-
-  bindDialogs() {
-    for (const name of ['report', 'help']) {
-      const dialog = byId(`${name}-dialog`);
-      byId(`open-${name}`).addEventListener('click', () => dialog.showModal());
-      dialog.querySelector('[data-close]').addEventListener('click', () => dialog.close());
-      // A click outside it.
-      dialog.addEventListener('click', (event) => { if (event.target === dialog) dialog.close(); });
-    }
-  }
-
-  followTheme() {
-    const dark = window.matchMedia('(prefers-color-scheme: dark)');
-    const follow = () => this.viewer.setTheme(dark.matches ? 'dark' : 'light');
-    dark.addEventListener('change', follow);
-    follow();
   }
 }

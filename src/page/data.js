@@ -9,14 +9,14 @@ function bytesOf(text) {
 }
 
 /** The numbers of an element; the element is emptied, as its text takes more memory than the numbers. */
-function block(name, Type) {
+export function block(name, Type) {
   const element = document.getElementById(`data-${name}`);
   const bytes = bytesOf(element.textContent);
   element.remove();
   return new Type(bytes.buffer, bytes.byteOffset, bytes.byteLength / Type.BYTES_PER_ELEMENT);
 }
 
-function json(name) {
+export function json(name) {
   return JSON.parse(document.getElementById(name).textContent);
 }
 

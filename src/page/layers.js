@@ -1,12 +1,14 @@
-// The layers of the drawing: one geometry and one kernel per layer.
+// The layers of the page of a run: one geometry and one kernel per layer.
 import {
-  BackSide, BufferAttribute, BufferGeometry, CustomBlending, DataTexture, DoubleSide, FloatType, FrontSide, GLSL3,
-  LineSegments, Mesh, OneFactor, OneMinusSrcAlphaFactor, Points, RawShaderMaterial, RedIntegerFormat, RGBAFormat,
-  RGBAIntegerFormat, ShortType, Sphere, UnsignedIntType, Vector2, Vector3, Vector4,
+  DoubleSide, FloatType, LineSegments, Mesh, Points, RedIntegerFormat, RGBAFormat, RGBAIntegerFormat, ShortType,
+  UnsignedIntType, Vector3, Vector4,
 } from 'three';
 
 import {coverOrder} from './ball_order.js';
 import {colourTexels} from './colours.js';
+import {
+  colourMap, commonUniforms, corners, kCornersOfABall, kOpaque, kOrder, kOver, material, numbers, placed,
+} from './kernels.js';
 import attributes from './shaders/attributes.glsl';
 import ballFragment from './shaders/ball.frag.glsl';
 import ballVertex from './shaders/ball.vert.glsl';
@@ -14,113 +16,25 @@ import common from './shaders/common.glsl';
 import discFragment from './shaders/disc.frag.glsl';
 import discVertex from './shaders/disc.vert.glsl';
 import flatFragment from './shaders/flat.frag.glsl';
-import meshFragment from './shaders/mesh.frag.glsl';
-import meshVertex from './shaders/mesh.vert.glsl';
 import pointFragment from './shaders/point.frag.glsl';
 import pointVertex from './shaders/point.vert.glsl';
 import spokeFragment from './shaders/spoke.frag.glsl';
 import spokeVertex from './shaders/spoke.vert.glsl';
 import wideLineVertex from './shaders/wide_line.vert.glsl';
-import {cornerGeometry, creaseLines} from './surface.js';
 
 const kDiscRadius = 0.75;   // In voxels: the discs of neighbouring voxels overlap into a sheet.
 const kPointRadius = 0.32;  // In voxels: small enough to distinguish neighbours.
-
-// The order of drawing: objects behind the glass, objects in it, its near side (depth first, so that only the nearest
-// wall is visible), and objects shown in front of all others.
-const kOrder = {back: 0, content: 1, depth: 2, front: 3, crease: 4, picked: 5};
-
-function colourMap() {
-  const texture = new DataTexture(colourTexels(), 256, 2);
-  texture.needsUpdate = true;
-  return texture;
-}
 
 /** Uniforms that all layers share: set once, visible to every kernel. */
 export function makeUniforms(scene) {
   const voxel = scene.voxel_size / scene.scale;
   return {
-    cutPlane: {value: new Vector4(0, 0, 0, 1)},
-    leastAngleRadius: {value: new Vector2(-Infinity, -Infinity)},
-    colourBy: {value: 0},
-    colourRange: {value: new Vector2(0, 1)},
-    colourMap: {value: colourMap()},
+    ...commonUniforms(),
+    colourMap: {value: colourMap(colourTexels())},
     discRadius: {value: kDiscRadius * voxel},
     pointRadius: {value: kPointRadius * voxel},
-    pixelRatio: {value: 1},
-    pixelsPerUnit: {value: 1},
-    viewport: {value: new Vector2(1, 1)},
     width: {value: 3},
-    density: {value: 1},
-    glass: {value: new Vector3()},
-    crease: {value: new Vector3()},
   };
-}
-
-function material(vertex, fragment, uniforms, options = {}) {
-  return new RawShaderMaterial({
-    glslVersion: GLSL3,
-    vertexShader: vertex,
-    fragmentShader: fragment,
-    uniforms,
-    transparent: true,  // All in one list, so that only `renderOrder` determines the order.
-    ...options,
-  });
-}
-
-/** Blends over the background, with the colour already multiplied by its share. */
-const kOver = {blending: CustomBlending, blendSrc: OneFactor, blendDst: OneMinusSrcAlphaFactor, depthWrite: false};
-const kOpaque = {blending: CustomBlending, blendSrc: OneFactor, blendDst: OneMinusSrcAlphaFactor};
-
-function placed(object, order) {
-  object.renderOrder = order;
-  object.frustumCulled = false;
-  object.geometry.boundingSphere = new Sphere();  // Not needed; three.js would otherwise read a vertex as a position.
-  return object;
-}
-
-export class MeshLayer {
-  constructor(scene, uniforms) {
-    this.scene = scene;
-    this.uniforms = uniforms;
-    const {positions, normals} = cornerGeometry(scene.vertices, scene.triangles);
-    const geometry = new BufferGeometry();
-    geometry.setAttribute('position', new BufferAttribute(positions, 3));
-    const packed = new BufferAttribute(normals, 4, true);
-    geometry.setAttribute('normal', packed);
-    const vertex = common + meshVertex, fragment = common + meshFragment;
-    const plain = {defines: {PLAIN: ''}};
-    this.objects = [
-      placed(new Mesh(geometry, material(vertex, fragment, uniforms, {...kOver, side: BackSide, defines: {BACK: ''}})),
-        kOrder.back),
-      placed(new Mesh(geometry, material(vertex, fragment, uniforms, {...plain, side: FrontSide, colorWrite: false,
-        polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 2})), kOrder.depth),
-      placed(new Mesh(geometry, material(vertex, fragment, uniforms, {...kOver, side: FrontSide})), kOrder.front),
-    ];
-  }
-
-  /** Lines along creases, added after the first frame, as their search takes a while. */
-  addCreases() {
-    const geometry = new BufferGeometry();
-    geometry.setAttribute('position', new BufferAttribute(creaseLines(this.scene.vertices, this.scene.triangles), 3));
-    const uniforms = {...this.uniforms, glass: this.uniforms.crease};
-    const lines = new LineSegments(geometry, material(common + meshVertex, common + meshFragment, uniforms,
-      {...kOver, defines: {PLAIN: ''}}));
-    this.objects.push(placed(lines, kOrder.crease));
-    return lines;
-  }
-}
-
-/** Numbers as a texture, row by row; the last row is padded with zeros. */
-function numbers(array, components, format, type, internalFormat, widest) {
-  const texels = Math.max(array.length / components, 1);
-  const width = Math.min(texels, widest), height = Math.ceil(texels / width);
-  const filled = new array.constructor(width * height * components);
-  filled.set(array);
-  const texture = new DataTexture(filled, width, height, format, type);
-  texture.internalFormat = internalFormat;
-  texture.needsUpdate = true;
-  return texture;
 }
 
 /** The textures of the points for the kernels (shaders/attributes.glsl). */
@@ -145,15 +59,6 @@ function pointTextures(scene, widest) {
     order: {value: null},
   };
 }
-
-/** A geometry of `count` corners; the kernels identify them by index. */
-function corners(count) {
-  const geometry = new BufferGeometry();
-  geometry.setDrawRange(0, count);
-  return geometry;
-}
-
-export const kCornersOfABall = 6;
 
 /** The layers of points, each created when it is first shown. */
 export class PointLayers {

@@ -1,5 +1,6 @@
 // The report of the run in readable form: docs/report.md explains the keys.
 import {bytes, plain} from './format.js';
+import {element, tableOf} from './page_parts.js';
 
 const kBytes = new Set(['memory_bytes']);
 const kHidden = new Set(['format', 'program', 'version', 'input', 'output', 'seconds', 'assumptions']);
@@ -16,13 +17,6 @@ const kNames = {
 const kAlways = new Set(['vertices', 'triangles', 'components', 'open_edges', 'undecided', 'rejected', 'found',
   'written', 'proved_empty', 'radius', 'perturb', 'extra_levels', 'signed_volume', 'tunnels', 'cavities']);
 const kSheets = 30;  // The limit of rows in the table.
-
-function element(tag, text, ...children) {
-  const made = document.createElement(tag);
-  if (text !== undefined && text !== null) made.textContent = text;
-  made.append(...children);
-  return made;
-}
 
 const nameOf = (key) => kNames[key] ?? key.replaceAll('_', ' ');
 
@@ -57,21 +51,8 @@ function rows(list, object, prefix = '') {
 /** An array of objects with the same keys. */
 function table(objects) {
   const keys = Object.keys(objects[0]).filter((key) => objects.some((object) => object[key] !== 0 && object[key] !== ''));
-  const head = element('tr', null, ...keys.map((key) => {
-    const cell = element('th', nameOf(key));
-    cell.scope = 'col';
-    if (typeof objects[0][key] === 'number') cell.className = 'number';
-    return cell;
-  }));
-  const body = objects.map((object) => element('tr', null, ...keys.map((key) => {
-    const cell = element('td', textOf(key, object[key]));
-    if (typeof object[key] === 'number') cell.className = 'number';
-    return cell;
-  })));
-  const wide = element('div', null, element('table', null, element('thead', null, head), element('tbody', null, ...body)));
-  wide.className = 'wide';
-  wide.tabIndex = 0;
-  return wide;
+  return tableOf(keys.map((key) => ({name: nameOf(key), number: typeof objects[0][key] === 'number'})),
+    objects.map((object) => keys.map((key) => textOf(key, object[key]))));
 }
 
 function section(title, ...content) {

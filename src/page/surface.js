@@ -1,4 +1,5 @@
 // The surface of the mesh for drawing: normals that are smooth except at creases, and the creases as lines.
+import {BufferAttribute, BufferGeometry} from 'three';
 
 const kCreaseCosine = 0.80;  // Facets that turn by more (37 degrees) meet in a crease; the same as in --picture.
 
@@ -33,7 +34,7 @@ function trianglesOfVertices(vertexCount, triangles) {
 
 /** Positions and normals of all corners, three to a triangle: the normal of a corner is the mean, weighted by area, of
  * the triangles at its vertex that do not turn away by a crease. */
-export function cornerGeometry(vertices, triangles) {
+function cornerGeometry(vertices, triangles) {
   const {normals, areas} = faceNormals(vertices, triangles);
   const {start, list} = trianglesOfVertices(vertices.length / 3, triangles);
   const positions = new Float32Array(3 * triangles.length);
@@ -60,33 +61,63 @@ export function cornerGeometry(vertices, triangles) {
   return {positions, normals: corners};
 }
 
-/** Both ends of every edge where the surface bends sharply, ends or branches. */
-export function creaseLines(vertices, triangles) {
-  const {normals} = faceNormals(vertices, triangles);
-  const vertexCount = vertices.length / 3;
+/** Calls `visit` with each edge: its ends, and its corners, from which a triangle leaves along it. */
+function forEdges(vertexCount, triangles, visit) {
   // An edge as one number, independent of its direction; after sorting, the triangles of an edge are consecutive.
   const edges = new Float64Array(triangles.length);
   const order = new Uint32Array(triangles.length);
   for (let corner = 0; corner < triangles.length; ++corner) {
-    const a = triangles[corner], b = triangles[corner % 3 === 2 ? corner - 2 : corner + 1];
+    const a = triangles[corner], b = triangles[nextCorner(corner)];
     edges[corner] = Math.min(a, b) * vertexCount + Math.max(a, b);
     order[corner] = corner;
   }
   order.sort((i, j) => edges[i] - edges[j]);
+  for (let i = 0; i < order.length;) {
+    let end = i + 1;
+    while (end < order.length && edges[order[end]] === edges[order[i]]) ++end;
+    visit(Math.floor(edges[order[i]] / vertexCount), edges[order[i]] % vertexCount, order.subarray(i, end));
+    i = end;
+  }
+}
+
+/** The next corner of the same triangle. */
+export const nextCorner = (corner) => (corner % 3 === 2 ? corner - 2 : corner + 1);
+
+/** Calls `crease` with both ends of every edge where the surface bends sharply, ends or branches, and `smooth` with both
+ * corners of every other edge. */
+export function divideEdges(vertices, triangles, crease, smooth = () => {}) {
+  const {normals} = faceNormals(vertices, triangles);
   const bends = (i, j) => {
     const s = 3 * Math.floor(i / 3), t = 3 * Math.floor(j / 3);
     return normals[s] * normals[t] + normals[s + 1] * normals[t + 1] + normals[s + 2] * normals[t + 2] < kCreaseCosine;
   };
+  forEdges(vertices.length / 3, triangles, (a, b, corners) => {
+    if (corners.length !== 2 || bends(...corners)) crease(a, b); else smooth(...corners);
+  });
+}
+
+/** Both ends of every edge where the surface bends sharply, ends or branches. */
+function creaseLines(vertices, triangles) {
   const lines = [];
-  for (let i = 0; i < order.length;) {
-    let end = i + 1;
-    while (end < order.length && edges[order[end]] === edges[order[i]]) ++end;
-    if (end - i !== 2 || bends(order[i], order[i + 1])) {
-      const a = Math.floor(edges[order[i]] / vertexCount), b = edges[order[i]] % vertexCount;
-      for (let k = 0; k < 3; ++k) lines.push(vertices[3 * a + k]);
-      for (let k = 0; k < 3; ++k) lines.push(vertices[3 * b + k]);
-    }
-    i = end;
-  }
+  divideEdges(vertices, triangles, (a, b) => {
+    for (let k = 0; k < 3; ++k) lines.push(vertices[3 * a + k]);
+    for (let k = 0; k < 3; ++k) lines.push(vertices[3 * b + k]);
+  });
   return new Float32Array(lines);
+}
+
+/** For MeshLayer. */
+export function surfaceGeometry({vertices, triangles}) {
+  const {positions, normals} = cornerGeometry(vertices, triangles);
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new BufferAttribute(positions, 3));
+  geometry.setAttribute('normal', new BufferAttribute(normals, 4, true));
+  return geometry;
+}
+
+/** For MeshLayer.addCreases(). */
+export function creaseGeometry({vertices, triangles}) {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new BufferAttribute(creaseLines(vertices, triangles), 3));
+  return geometry;
 }

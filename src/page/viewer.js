@@ -1,38 +1,26 @@
-// The canvas: camera, layers, cut, filter and picking. Draws only when something has changed.
-import {Group, MathUtils, Matrix4, PerspectiveCamera, Plane, Scene, Spherical, Vector3, WebGLRenderer} from 'three';
-import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
+// The canvas of the page of a run: layers, cut, filter and picking.
+import {Matrix4, Plane, Vector3} from 'three';
 
 import {kAttributes, kThemes} from './colours.js';
-import {kCornersOfABall, makeUniforms, MeshLayer, PickedLayer, PointLayers} from './layers.js';
+import {kCornersOfABall, MeshLayer} from './kernels.js';
+import {makeUniforms, PickedLayer, PointLayers} from './layers.js';
 import {pick} from './pick.js';
+import {creaseGeometry, surfaceGeometry} from './surface.js';
+import {View} from './view.js';
 
 export const kLayers = ['mesh', 'balls', 'points', 'spokes', 'sheets'];
 
-const kFieldOfView = 32;  // Degrees, of the shorter side.
-const kFrom = new Vector3(0.62, 0.48, 1).normalize();  // From the right, above and the front, as --picture.
-// Rotations that bring an axis up, about x, y and z: those of --picture (src/common/up_axis.h).
-const kTurns = {
-  y: [0, 0, 0], '-y': [Math.PI, 0, 0], z: [-Math.PI / 2, 0, 0], '-z': [Math.PI / 2, 0, 0], x: [0, 0, Math.PI / 2],
-  '-x': [0, 0, -Math.PI / 2],
-};
-const kFilled = 0.88;  // The share of the picture that the model fills at first.
 // The time limit of the balls in milliseconds, so that the page stays responsive.
 const kTurningTime = 40, kRestingTime = 700;
 const kFirstPace = 3e4, kLeastPace = 3e3;  // Pixels of balls per millisecond: first of a slow device, then measured.
 
-export class Viewer {
+export class Viewer extends View {
   /** `context`: of WebGL 2, without antialiasing. */
   constructor(canvas, context, scene) {
-    this.canvas = canvas;
+    const half = [0, 1, 2].map((k) => (scene.upper[k] - scene.lower[k]) / 2 / scene.scale);
+    super(canvas, context, makeUniforms(scene), {vertices: scene.vertices, half});
     this.scene = scene;
-    this.renderer = new WebGLRenderer({canvas, context});
-    this.renderer.setClearColor(0, 0);
-    this.renderer.outputColorSpace = 'srgb-linear';  // Colours are given as displayed.
-    this.root = new Scene();
-    this.model = new Group();
-    this.root.add(this.model);
-    this.uniforms = makeUniforms(scene);
-    this.mesh = new MeshLayer(scene, this.uniforms);
+    this.mesh = new MeshLayer(surfaceGeometry(scene), this.uniforms);
     this.points = new PointLayers(scene, this.uniforms, this.renderer.capabilities.maxTextureSize);
     this.picked = new PickedLayer(this.uniforms);
     this.model.add(...this.mesh.objects, ...this.picked.objects);
@@ -43,125 +31,6 @@ export class Viewer {
     this.drawnBalls = 0;  // The first of those, as many as the device can draw in time.
     this.pace = kFirstPace;
     this.otherTime = [0, 0];  // Milliseconds of a frame without balls, in motion and at rest.
-    this.frame = 0;
-    this.stripBelow = () => 0;  // CSS pixels of the picture that other elements cover.
-    this.setUpCamera();
-  }
-
-  setUpCamera() {
-    this.half = [0, 1, 2].map((k) => (this.scene.upper[k] - this.scene.lower[k]) / 2 / this.scene.scale);
-    this.size = Math.hypot(...this.half) || 1;
-    this.camera = new PerspectiveCamera(kFieldOfView, 1, 0.01, 10);
-    this.controls = new OrbitControls(this.camera, this.canvas);
-    this.controls.zoomToCursor = true;
-    this.controls.minDistance = 0.02;
-    this.controls.maxDistance = 40;
-    this.controls.addEventListener('start', () => { this.chosen = true; });
-    this.controls.addEventListener('change', () => this.draw());
-    this.resize();
-    new ResizeObserver(() => this.resize()).observe(this.canvas.parentElement);
-  }
-
-  resize() {
-    const {clientWidth: width, clientHeight: height} = this.canvas.parentElement;
-    if (width === 0 || height === 0) return;
-    this.renderer.setSize(width, height, false);
-    this.camera.aspect = width / height;
-    // The field of view is that of the shorter side.
-    const half = Math.tan(MathUtils.degToRad(kFieldOfView / 2)) / Math.min(this.camera.aspect, 1);
-    this.camera.fov = 2 * MathUtils.radToDeg(Math.atan(half));
-    this.camera.updateProjectionMatrix();
-    this.unitsPerPixel = 2 * half / height;
-    this.uniforms.viewport.value.set(width, height);
-    this.refit();
-    this.draw();
-  }
-
-  /** Fits the model into the picture again, unless the user has chosen a view. */
-  refit() {
-    if (!this.chosen) this.resetView();
-  }
-
-  /** At rest, doubles the resolution of a screen with large pixels in both directions, against jagged edges. */
-  setSharpness(atRest) {
-    const screen = Math.min(window.devicePixelRatio, 2);
-    const ratio = atRest && screen < 2 ? 2 * screen : screen;
-    if (ratio !== this.renderer.getPixelRatio()) this.renderer.setPixelRatio(ratio);
-    this.uniforms.pixelRatio.value = ratio;
-    this.uniforms.pixelsPerUnit.value = ratio / this.unitsPerPixel;
-  }
-
-  /** Calls `visit` with the vertices in the initial view. A sample of some thousand suffices. */
-  forVerticesInView(visit) {
-    const {vertices} = this.scene;
-    const toView = new Matrix4().lookAt(kFrom, new Vector3(), this.camera.up).invert().multiply(this.model.matrixWorld);
-    const place = new Vector3();
-    const stride = 3 * Math.ceil(vertices.length / 3 / 5000);
-    for (let i = 0; i < vertices.length; i += stride) visit(place.fromArray(vertices, i).applyMatrix4(toView));
-  }
-
-  /** A distance from which every vertex is visible in the initial view: the middle of the model's box is in the middle
-   * of the picture. */
-  safeDistance() {
-    const up = Math.tan(MathUtils.degToRad(this.camera.fov / 2)), right = up * this.camera.aspect;
-    let distance = 0.1 * this.size;
-    this.forVerticesInView(({x, y, z}) => { distance = Math.max(distance, z + Math.abs(x) / right, z + Math.abs(y) / up); });
-    return distance;
-  }
-
-  /** The part of the picture that the model covers from a distance: the middle and half the size, 1 being half the
-   * picture. */
-  covered(distance) {
-    const up = Math.tan(MathUtils.degToRad(this.camera.fov / 2)), right = up * this.camera.aspect;
-    const least = [Infinity, Infinity], greatest = [-Infinity, -Infinity];
-    this.forVerticesInView(({x, y, z}) => {
-      [x / right, y / up].forEach((value, k) => {
-        least[k] = Math.min(least[k], value / (distance - z));
-        greatest[k] = Math.max(greatest[k], value / (distance - z));
-      });
-    });
-    if (least[0] > greatest[0]) return {left: 0, top: 0, width: 0, height: 0};  // No vertices.
-    const [left, top] = least.map((value, k) => (value + greatest[k]) / 2);
-    const [width, height] = least.map((value, k) => (greatest[k] - value) / 2);
-    return {left, top, width, height};
-  }
-
-  /** Centres the visible part of the model in the picture, or in the part that the legend leaves free. */
-  resetView() {
-    this.chosen = false;
-    this.model.updateMatrixWorld();
-    const {clientWidth: width, clientHeight: height} = this.canvas.parentElement;
-    const taken = height > 0 ? Math.min(this.stripBelow() / height, 0.5) : 0;
-    const safe = this.safeDistance();
-    let distance = safe / kFilled;
-    for (let i = 0; i < 4; ++i) {
-      const seen = this.covered(distance);
-      distance = Math.max(distance * Math.max(seen.width, seen.height / (1 - taken)) / kFilled, 0.6 * safe);
-    }
-    const {left, top} = this.covered(distance);
-    this.camera.setViewOffset(width, height, left * width / 2, (taken - top) * height / 2, width, height);
-    this.controls.target.set(0, 0, 0);
-    this.camera.position.copy(kFrom).multiplyScalar(distance);
-    this.controls.update();
-    this.draw();
-  }
-
-  /** Turns about the target, in radians, and moves `nearer` times as close. */
-  turn(right, up, nearer = 1) {
-    this.chosen = true;
-    const offset = this.camera.position.clone().sub(this.controls.target);
-    const spherical = new Spherical().setFromVector3(offset);
-    spherical.theta += right;
-    spherical.phi = MathUtils.clamp(spherical.phi + up, 0.01, Math.PI - 0.01);
-    spherical.radius = MathUtils.clamp(spherical.radius / nearer, this.controls.minDistance, this.controls.maxDistance);
-    this.camera.position.copy(this.controls.target).add(offset.setFromSpherical(spherical));
-    this.controls.update();
-    this.draw();
-  }
-
-  setUp(axis) {
-    this.model.rotation.set(...kTurns[axis]);
-    this.resetView();
   }
 
   showLayer(name, visible) {
@@ -177,24 +46,15 @@ export class Viewer {
   }
 
   addCreases() {
-    const lines = this.mesh.addCreases();
+    const lines = this.mesh.addCreases(creaseGeometry(this.scene));
     lines.visible = this.shown.mesh;
     this.model.add(lines);
     this.draw();
   }
 
   setTheme(name) {
-    const theme = kThemes[name];
-    this.uniforms.glass.value.set(...theme.glass);
-    this.uniforms.crease.value.set(...theme.crease);
-    for (const part of ['picked', 'spokeA', 'spokeB']) this.picked.colours[part].set(...theme[part]);
-    this.draw();
-  }
-
-  /** 0: invisible, 0.5: glass, 1: opaque. */
-  setOpacity(share) {
-    this.uniforms.density.value = share < 1 ? share / (1 - share) : 1e4;
-    this.draw();
+    for (const part of ['picked', 'spokeA', 'spokeB']) this.picked.colours[part].set(...kThemes[name][part]);
+    super.setTheme(name);
   }
 
   setColour(attribute, least, greatest) {
@@ -283,18 +143,6 @@ export class Viewer {
     });
   }
 
-  /** Draws at the next opportunity: quickly, and once more at full quality when nothing has changed for a while. */
-  draw() {
-    clearTimeout(this.rest);
-    this.rest = setTimeout(() => this.drawNow(true), 250);
-    if (this.waiting) return;
-    this.waiting = true;
-    requestAnimationFrame(() => {
-      this.waiting = false;
-      this.drawNow(false);
-    });
-  }
-
   /** Pixels of the squares around the first balls, for a model at the distance of its middle. */
   pixelsOfBalls(count) {
     const scale = 2 * this.uniforms.pixelsPerUnit.value / Math.max(this.camera.position.length(), 0.3);
@@ -311,20 +159,10 @@ export class Viewer {
     return least;
   }
 
-  /** Measures the speed of the device from a frame, without waiting for it; at rest, more balls may follow. */
+  /** Measures the speed of the device from a frame; at rest, more balls may follow. */
   learnPace(atRest) {
-    const gl = this.renderer.getContext();
-    const pixels = this.shown.balls ? this.pixelsOfBalls(this.drawnBalls) : 0, begin = performance.now(), frame = this.frame;
-    const sync = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
-    gl.flush();
-    const look = () => {
-      if (gl.isContextLost()) return;
-      if (gl.clientWaitSync(sync, 0, 0) === gl.TIMEOUT_EXPIRED) {
-        setTimeout(look, 4);
-        return;
-      }
-      gl.deleteSync(sync);
-      const time = performance.now() - begin;
+    const pixels = this.shown.balls ? this.pixelsOfBalls(this.drawnBalls) : 0, frame = this.frame;
+    this.timeDevice((time) => {
       if (pixels === 0) {
         this.otherTime[Number(atRest)] = time;
         return;
@@ -335,27 +173,17 @@ export class Viewer {
       this.pace = Math.min(Math.max(pace, kLeastPace), 8 * this.pace);
       const more = this.ballsWithin(kRestingTime) > 1.25 * this.drawnBalls;
       if (atRest && frame === this.frame && more) this.drawNow(true);
-    };
-    setTimeout(look, 4);
+    });
   }
 
-  drawNow(atRest) {
-    const {camera} = this;
-    this.setSharpness(atRest);
-    const away = camera.position.length();
-    const reach = 1.5 * this.size;
-    camera.near = Math.max(away - reach, 0.002 * this.size);
-    camera.far = away + reach;
-    camera.updateProjectionMatrix();
-    camera.updateMatrixWorld();
-    this.model.updateMatrixWorld();
+  prepare(atRest) {
     this.updatePlane();
-    this.frame += 1;
-    if (this.shown.balls) {
-      this.drawnBalls = this.ballsWithin(atRest ? kRestingTime : kTurningTime);
-      this.points.get('balls').geometry.setDrawRange(0, kCornersOfABall * this.drawnBalls);
-    }
-    this.renderer.render(this.root, camera);
+    if (!this.shown.balls) return;
+    this.drawnBalls = this.ballsWithin(atRest ? kRestingTime : kTurningTime);
+    this.points.get('balls').geometry.setDrawRange(0, kCornersOfABall * this.drawnBalls);
+  }
+
+  drawn(atRest) {
     this.learnPace(atRest);
     if (atRest) this.onRest?.();
   }
@@ -369,11 +197,5 @@ export class Viewer {
     const toView = new Matrix4().multiplyMatrices(this.camera.matrixWorldInverse, this.model.matrixWorld);
     const plane = new Plane(new Vector3(x, y, z), w).applyMatrix4(toView);
     this.uniforms.cutPlane.value.set(plane.normal.x, plane.normal.y, plane.normal.z, plane.constant);
-  }
-
-  /** Waits for the device: the frame is complete when this returns. */
-  finish() {
-    const gl = this.renderer.getContext();
-    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
   }
 }

@@ -171,9 +171,10 @@ export class Page {
     await this.send('Input.dispatchMouseEvent', {type: 'mouseWheel', x, y, deltaX: 0, deltaY});
   }
 
-  async press(key) {
+  /** `modifiers`: 8 is Shift. */
+  async press(key, modifiers = 0) {
     const code = kKeys[key] ?? key.toUpperCase().charCodeAt(0);
-    const event = {key, windowsVirtualKeyCode: code, ...(key in kKeys ? {code: key} : {text: key})};
+    const event = {key, modifiers, windowsVirtualKeyCode: code, ...(key in kKeys ? {code: key} : {text: key})};
     if (key === 'Enter') event.text = '\r';
     await this.send('Input.dispatchKeyEvent', {type: event.text ? 'keyDown' : 'rawKeyDown', ...event});
     await this.send('Input.dispatchKeyEvent', {type: 'keyUp', key, windowsVirtualKeyCode: code});

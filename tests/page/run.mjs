@@ -1,12 +1,15 @@
-// Runs one test of the page in headless Chromium.
+// Runs one test of a page in headless Chromium.
 //   node run.mjs TOOL TEST
+// TOOL: medial-vk, or make_motion_page for the tests of the page of a motion, whose names begin with motion_.
 // The exit code is 77 if there is no Chromium, or if the tool was built without its page.
 import {Browser, findChromium} from './browser.mjs';
 import {Workshop} from './fixtures.mjs';
+import {motionTests} from './motion_tests.mjs';
 import {tests as pageTests} from './tests.mjs';
 import {viewTests} from './view_tests.mjs';
 
 const tests = {...pageTests, ...viewTests};
+for (const [name, test] of Object.entries(motionTests)) tests[`motion_${name}`] = test;
 
 function skip(why) {
   console.log(`SKIPPED: ${why}`);
@@ -20,7 +23,7 @@ const chromium = findChromium();
 if (!chromium) skip('no Chromium (Debian: apt install chromium; elsewhere: CHROMIUM=program)');
 
 const workshop = new Workshop(tool);
-const browser = new Browser(chromium, {webGl: name !== 'no_webgl'});
+const browser = new Browser(chromium, {webGl: !name.endsWith('no_webgl')});
 try {
   await test({workshop, browser});
   console.log(`${name}: ok`);

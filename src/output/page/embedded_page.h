@@ -5,10 +5,7 @@
 
 namespace medial_vk::page {
 
-/// Empty if the build had no npm. Holds the marks kTitleMark and kDataMark once each (cmake/BundlePage.cmake).
+/// Empty if the build had no npm. Otherwise split() (output/page/page_parts.h) divides it.
 std::string_view embedded_page();
-
-inline constexpr std::string_view kTitleMark = "<!--medial-vk: title-->";
-inline constexpr std::string_view kDataMark = "<!--medial-vk: data-->";
 
 }  // namespace medial_vk::page

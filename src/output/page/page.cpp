@@ -2,46 +2,20 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string_view>
-#include <vector>
 
 #include "output/extraction_report/report_json.h"
-#include "output/page/base64.h"
 #include "output/page/embedded_page.h"
+#include "output/page/page_parts.h"
 
 namespace medial_vk {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// An array of numbers for the page: little-endian bytes in base64, in an element of its own.
-class Block {
- public:
-  Block(std::string_view name, std::size_t bytes) : name_(name) { bytes_.reserve(bytes); }
-
-  template <class T>
-  void add(T value) {
-    std::array<std::uint8_t, sizeof(T)> bytes;
-    std::memcpy(bytes.data(), &value, sizeof(T));
-    if constexpr (std::endian::native == std::endian::big) std::reverse(bytes.begin(), bytes.end());
-    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
-  }
-
-  void write(std::string& page) const {
-    page.append("<script type=\"text/plain\" id=\"data-").append(name_).append("\">");
-    page::append_base64(page, bytes_);
-    page.append("</script>\n");
-  }
-
- private:
-  std::string_view name_;
-  std::vector<std::uint8_t> bytes_;
-};
+using page::Block;
 
 /// The geometry of the page lies around 0 and has size 1, in single precision, for any position and size of the mesh: a
 /// mesh far from 0 loses no digits. `origin` and `scale` give the inverse map.
@@ -100,19 +74,6 @@ void write_spheres(std::string& page, std::span<const MedialSphere> spheres, con
   for (const Block* block : {&centres, &radii, &spokes, &angles, &fluxes, &sheets, &voxels}) block->write(page);
 }
 
-/// JSON inside an element: without "<", so that no text in it (a file name) can end the element.
-void write_json(std::string& page, std::string_view name, std::string_view json) {
-  page.append("<script type=\"application/json\" id=\"").append(name).append("\">");
-  for (const char c : json) {
-    if (c == '<') {
-      page.append("\\u003c");
-    } else {
-      page += c;
-    }
-  }
-  page.append("</script>\n");
-}
-
 std::string scene_json(const Mesh& mesh, std::span<const MedialSphere> spheres, const RunRecord& record,
                        const Placement& placement, UpAxis up) {
   const Json json = {{"origin", placement.origin},
@@ -135,29 +96,10 @@ std::string report_without_times(const RunRecord& record) {
   return report_json(timeless);
 }
 
-std::string escape_text(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        out.append("&lt;");
-        break;
-      case '&':
-        out.append("&amp;");
-        break;
-      default:
-        out += static_cast<unsigned char>(c) < 32 ? ' ' : c;
-    }
-  }
-  return out;
-}
-
 std::string title_of(const RunRecord& record) {
   std::string name = record.input == "-" ? "stdin" : std::filesystem::path(record.input).filename().string();
   if (!record.part.empty()) name += ": " + record.part;
-  // Printed as JSON and parsed: text that is not UTF-8 is replaced, as everywhere in the report.
-  const Json text = Json::parse(Json(name).dump(-1, ' ', false, Json::error_handler_t::replace));
-  return escape_text(text.get<std::string>());
+  return page::text_in_html(name);
 }
 
 }  // namespace
@@ -171,21 +113,18 @@ Status check_page_available() {
 }
 
 std::string encode_page(const Mesh& mesh, std::span<const MedialSphere> spheres, const RunRecord& record, UpAxis up) {
-  const std::string_view page = page::embedded_page();
-  const std::size_t title = page.find(page::kTitleMark);
-  const std::size_t data = page.find(page::kDataMark);
-  const std::size_t after_title = title + page::kTitleMark.size();
+  const page::Template page = page::split(page::embedded_page());
   const Placement placement = place(record);
 
   std::string out;
   // 46 bytes per point and 12 per vertex and triangle, four characters for three bytes.
   out.reserve(page.size() + 65536 + spheres.size() * 62 + (mesh.vertices.size() + mesh.triangles.size()) * 16);
-  out.append(page.substr(0, title)).append(title_of(record)).append(page.substr(after_title, data - after_title));
-  write_json(out, "report", report_without_times(record));
-  write_json(out, "scene", scene_json(mesh, spheres, record, placement, up));
+  out.append(page.before_title).append(title_of(record)).append(page.before_data);
+  page::write_json(out, "report", report_without_times(record));
+  page::write_json(out, "scene", scene_json(mesh, spheres, record, placement, up));
   write_mesh(out, mesh, placement);
   write_spheres(out, spheres, placement);
-  out.append(page.substr(data + page::kDataMark.size()));
+  out.append(page.after_data);
   return out;
 }
 
