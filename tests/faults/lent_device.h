@@ -8,6 +8,7 @@
 #include "device_commands/recorder.h"
 #include "fault_test.h"
 #include "medial_vk/extraction_job.h"
+#include "medial_vk/follower_job.h"
 #include "medial_vk/proximity_job.h"
 #include "support/device/lend_device.h"
 #include "support/recorded_job.h"
@@ -56,24 +57,33 @@ class LentDevice {
 
   /// The verdicts of the job for its first `count` poses, likewise.
   Answer record_and_run(ProximityJob& job, std::uint32_t count) {
-    const Status recorded = in_runtime([&] { return job.record(commands_, count); });
+    return run_and_read(in_runtime([&] { return job.record(commands_, count); }), job.buffers().answers,
+                        count * sizeof(std::uint32_t));
+  }
+
+  /// The balls of the job, of which there are `count`, likewise.
+  Answer record_and_run(FollowerJob& job, std::uint32_t count) {
+    return run_and_read(in_runtime([&] { return job.record(commands_); }), job.buffers().balls,
+                        count * sizeof(RecordedBall));
+  }
+
+ private:
+  Answer run_and_read(const Status& recorded, VkBuffer answers, VkDeviceSize bytes) {
     VulkanInterposer::get().stop_failing();
-    const VkDeviceSize bytes = count * sizeof(std::uint32_t);
     Arena arena(impl());
-    const Buffer verdicts = arena.create_buffer(bytes, MemoryKind::kReadback, "a test").value();
+    const Buffer read = arena.create_buffer(bytes, MemoryKind::kReadback, "a test").value();
     if (recorded.ok()) {
       Recorder reading(impl(), commands_);
-      reading.copy({job.buffers().answers, bytes, nullptr}, 0, verdicts, 0, bytes);
+      reading.copy({answers, bytes, nullptr}, 0, read, 0, bytes);
       reading.barrier_to_host();
       EXPECT_TRUE(reading.status().ok());
       submit();
     }
     begin();
     if (!recorded.ok()) return recorded.error();
-    return std::string(static_cast<const char*>(verdicts.mapped), bytes);
+    return std::string(static_cast<const char*>(read.mapped), bytes);
   }
 
- private:
   ContextImpl& impl() { return Internals::of(owner_); }
 
   void begin() {

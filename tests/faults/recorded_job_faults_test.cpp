@@ -6,9 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "base/point_ops.h"
 #include "fault_test.h"
 #include "lent_device.h"
 #include "medial_vk/extraction_job.h"
+#include "medial_vk/follower_job.h"
 #include "medial_vk/proximity_job.h"
 #include "support/indexed.h"
 #include "support/recorded_job.h"
@@ -145,6 +147,55 @@ TEST_F(RecordedJobFaults, LaterSequencesOfPosesCreateNothing) {
       EXPECT_EQ(vulkan().calls(), 0u);
     }
   }
+}
+
+/// Around the middle of small_box(), whose sides are 0.45 and longer.
+std::vector<Ball> balls_to_follow(const PreparedMesh& box) {
+  Point middle = {0, 0, 0};
+  for (const Point& p : box.mesh.vertices) middle = middle + 1.0 / static_cast<double>(box.mesh.vertices.size()) * p;
+  return {{middle, 0.2}, {middle + Point{0.05, 0, 0}, 0.1}};
+}
+
+TEST_F(RecordedJobFaults, OfAJobOfBallsThatFollow) {
+  const PreparedMesh mesh = small_box(), moved = sheared(mesh);
+  const IndexedMesh indexed = test::indexed(mesh);
+  const std::vector<Ball> balls = balls_to_follow(mesh);
+  Context context = Context::adopt(host_->lend()).value();
+  const auto run = [&]() -> Answer {
+    FollowerJobOptions options;
+    options.threads = 1;
+    const auto create = [&] { return FollowerJob::create(context, indexed, balls, options); };
+    Result<FollowerJob> job = in_runtime(create);
+    if (!job.ok()) return job.error();
+    const auto set = [&] { return job.value().set_vertices(moved.mesh.vertices); };
+    if (Status status = in_runtime(set); !status.ok()) return status.error();
+    return host_->record_and_run(job.value(), 2);
+  };
+  for (const Fault fault : kMemoryFaults)
+    fail_every_call(fault, "a job of balls that follow", run, [](std::uint64_t) {});
+}
+
+// A sequence that could not be recorded is recorded again, from the rest pose and with the vertices that were set.
+TEST_F(RecordedJobFaults, OfASequenceOfBallsThatIsRecordedAgain) {
+  const PreparedMesh mesh = small_box(), moved = sheared(mesh);
+  const IndexedMesh indexed = test::indexed(mesh);
+  const std::vector<Ball> balls = balls_to_follow(mesh);
+  Context context = Context::adopt(host_->lend()).value();
+  const auto make = [&] { return FollowerJob::create(context, indexed, balls).value(); };
+  FollowerJob job = make();
+  const auto set = [&](const PreparedMesh& to) { EXPECT_TRUE(job.set_vertices(to.mesh.vertices).ok()); };
+  set(mesh);
+  const std::string at_rest = host_->record_and_run(job, 2).value();
+  job.reset();
+  set(moved);
+  const std::string expected = host_->record_and_run(job, 2).value();
+  ASSERT_TRUE(at_rest != expected);
+  const auto prepare = [&] {
+    job = make();  // whose first sequence is not recorded yet
+    set(moved);
+  };
+  fail_every_recording(
+      "a sequence of balls that is recorded again", prepare, [&] { return host_->record_and_run(job, 2); }, expected);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The whole library. Headers with types of Vulkan (extraction_job.h, host_device.h, proximity_job.h) are for programs
-// with a device of their own, which include them by name.
+// The whole library. Headers with types of Vulkan (extraction_job.h, follower_job.h, host_device.h, proximity_job.h)
+// are for programs with a device of their own, which include them by name.
 #pragma once
 
 #include "medial_vk/analysis.h"

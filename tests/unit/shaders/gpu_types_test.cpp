@@ -11,6 +11,7 @@
 
 #include "ball_types.h"
 #include "device/embedded_shaders.h"
+#include "follow_types.h"
 #include "proximity_types.h"
 #include "support/device/spirv_structs.h"
 #if __has_include("thesis_types.h")
@@ -100,6 +101,28 @@ const std::vector<Layout>& shared_layouts() {
        sizeof(gpu::ProximityConstants),
        {MEDIAL_VK_MEMBER(ProximityConstants, pose_count), MEDIAL_VK_MEMBER(ProximityConstants, body_count),
         MEDIAL_VK_MEMBER(ProximityConstants, most_steps), MEDIAL_VK_MEMBER(ProximityConstants, leaves_rest)}},
+      {"FollowContact",
+       sizeof(gpu::FollowContact),
+       {MEDIAL_VK_MEMBER(FollowContact, towards), MEDIAL_VK_MEMBER(FollowContact, carried),
+        MEDIAL_VK_MEMBER(FollowContact, triangle), MEDIAL_VK_MEMBER(FollowContact, v),
+        MEDIAL_VK_MEMBER(FollowContact, w), MEDIAL_VK_MEMBER(FollowContact, unused)}},
+      {"FollowedBall",
+       sizeof(gpu::FollowedBall),
+       {MEDIAL_VK_MEMBER(FollowedBall, a), MEDIAL_VK_MEMBER(FollowedBall, b), MEDIAL_VK_MEMBER(FollowedBall, ball)}},
+      {"FollowRest",
+       sizeof(gpu::FollowRest),
+       {MEDIAL_VK_MEMBER(FollowRest, followed), MEDIAL_VK_MEMBER(FollowRest, through),
+        MEDIAL_VK_MEMBER(FollowRest, turn), MEDIAL_VK_MEMBER(FollowRest, parent), MEDIAL_VK_MEMBER(FollowRest, index)}},
+      {"FollowConstants",
+       sizeof(gpu::FollowConstants),
+       {MEDIAL_VK_MEMBER(FollowConstants, ball_count), MEDIAL_VK_MEMBER(FollowConstants, node_count),
+        MEDIAL_VK_MEMBER(FollowConstants, triangle_count), MEDIAL_VK_MEMBER(FollowConstants, from_rest),
+        MEDIAL_VK_MEMBER(FollowConstants, scale), MEDIAL_VK_MEMBER(FollowConstants, inverse_scale),
+        MEDIAL_VK_MEMBER(FollowConstants, shrunk), MEDIAL_VK_MEMBER(FollowConstants, flat_turn)}},
+      {"RefitConstants",
+       sizeof(gpu::RefitConstants),
+       {MEDIAL_VK_MEMBER(RefitConstants, triangle_count), MEDIAL_VK_MEMBER(RefitConstants, first_level),
+        MEDIAL_VK_MEMBER(RefitConstants, end_level), MEDIAL_VK_MEMBER(RefitConstants, scale)}},
       {"StepConstants",
        sizeof(gpu::StepConstants),
        {MEDIAL_VK_MEMBER(StepConstants, cell_size),

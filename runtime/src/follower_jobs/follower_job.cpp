@@ -1,0 +1,354 @@
+#include <volk.h>
+
+#include "medial_vk/follower_job.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/host_memory.h"
+#include "bvh/refined_tree.h"
+#include "device/context_impl.h"
+#include "device_commands/commands.h"
+#include "device_commands/uploads.h"
+#include "follow_types.h"
+#include "follower_jobs/rest_balls.h"
+#include "follower_jobs/threaded_tree.h"
+#include "following/moving_surface.h"
+#include "medial_vk/follower.h"
+#include "tree_types.h"
+
+namespace medial_vk {
+namespace {
+
+static_assert(sizeof(RecordedVertex) == 12);
+static_assert(sizeof(RecordedBall) == sizeof(gpu::vec4));
+static_assert(static_cast<std::uint32_t>(FollowState::kMedial) == gpu::kFollowMedial);
+static_assert(static_cast<std::uint32_t>(FollowState::kFlat) == gpu::kFollowFlat);
+static_assert(static_cast<std::uint32_t>(FollowState::kShrunk) == gpu::kFollowShrunk);
+static_assert(static_cast<std::uint32_t>(FollowState::kLost) == gpu::kFollowIsLost);
+
+constexpr std::uint32_t kWorkgroupSize = 64;
+constexpr std::uint32_t kResolveGroup = 256;
+/// Levels of the tree with no more nodes are refitted by one workgroup together with all above them.
+constexpr std::uint32_t kSmallLevel = 512;
+constexpr double kLeastSide = 1e-25, kMostSide = 1e25;
+/// One invocation of 256 tests its share of all triangles within lavapipe's iterations (resolve_followed.comp).
+constexpr std::size_t kMostTriangles = 8'000'000;
+
+Status check_mesh(const IndexedMesh& rest, const MovingSurface& surface) {
+  const auto refuse = [](const char* message) { return Error{ErrorCode::kInvalidMesh, message}; };
+  if (!surface.is_closed()) return refuse("balls follow a mesh on the device only if it is closed");
+  if (surface.front() < 0) return refuse("the mesh is inside out: its signed volume is negative");
+  const double side = rest.longest_side();
+  if (side >= kLeastSide && side <= kMostSide) return {};
+  return refuse("the longest side of a mesh that balls follow on the device must be from 1e-25 to 1e25");
+}
+
+/// The square of the difference of both directions of a ball with this object angle.
+float squared_turn_at(double object_angle) {
+  if (object_angle > std::numbers::pi / 2) return 5;  // above all
+  const double turn = 2 * std::sin(object_angle);
+  return static_cast<float>(turn * turn);
+}
+
+std::vector<std::uint32_t> places_of(const Bvh& bvh) {
+  std::vector<std::uint32_t> places(bvh.order().size());
+  for (std::uint32_t i = 0; i < places.size(); ++i) places[bvh.order()[i]] = i;
+  return places;
+}
+
+}  // namespace
+
+struct FollowerJob::Impl {
+  /// The resources of a recorded sequence, in use until it has finished.
+  struct Frame {
+    Buffer staged;                       // vertices from the host
+    std::unique_ptr<Recorder> recorder;  // keeps its descriptor sets: the buffers are always the same
+  };
+
+  Impl(ContextImpl& of, const FollowerJobOptions& o) : context(of), options(o), arena(of) {}
+
+  ContextImpl& context;
+  FollowerJobOptions options;
+  Arena arena;
+  Buffer vertices, indices, levels, triangles, nodes, lists, rests, states, found, sides, unresolved, balls,
+      ball_states;
+  std::uint32_t vertex_count = 0, triangle_count = 0, ball_count = 0, node_count = 0;
+  bool use_texels = true;  // triangles and nodes are not too large for views
+  VkBufferView triangle_texels = VK_NULL_HANDLE, node_texels = VK_NULL_HANDLE;
+  std::vector<std::uint32_t> level_sizes;
+  float scale = 1;
+  std::vector<Frame> frames;
+  std::size_t next = 0;       // the frame that is recorded next
+  bool has_vertices = false;  // its sequence begins with a copy
+  bool from_rest = true;      // its sequence follows the rest pose
+
+  Status check_sizes(std::size_t all_triangles, std::size_t all_balls, std::size_t all_vertices) const;
+  Status fill(const IndexedMesh& rest, const Bvh& bvh, const ThreadedTree& tree,
+              const std::vector<gpu::FollowRest>& at_rest);
+  Status make_buffers();
+  Status make_views();
+  Status append(Recorder& r, const Frame& frame) const;
+  void refit(Recorder& r) const;
+  void follow(Recorder& r) const;
+};
+
+Status FollowerJob::Impl::check_sizes(std::size_t all_triangles, std::size_t all_balls,
+                                      std::size_t all_vertices) const {
+  const std::size_t limit = context.limits.maxStorageBufferRange;
+  const auto refuse = [](std::size_t given, const char* what, std::size_t most) {
+    return Error{ErrorCode::kOutOfMemory, "balls that follow a mesh on this device: there are " +
+                                              std::to_string(given) + " " + what + ", it takes " +
+                                              std::to_string(most)};
+  };
+  // Four vectors for each triangle are more than its two nodes or less.
+  const std::size_t most_triangles = std::min(kMostTriangles, limit / (4 * sizeof(gpu::vec4)));
+  if (all_triangles > most_triangles) return refuse(all_triangles, "triangles", most_triangles);
+  const std::size_t most_balls = limit / sizeof(gpu::FollowRest);
+  if (all_balls > most_balls) return refuse(all_balls, "balls", most_balls);
+  const std::size_t most_vertices = limit / sizeof(RecordedVertex);
+  if (all_vertices > most_vertices) return refuse(all_vertices, "vertices", most_vertices);
+  return {};
+}
+
+Status FollowerJob::Impl::make_buffers() {
+  const auto make = [&](VkDeviceSize bytes, const char* purpose, Buffer& buffer,
+                        MemoryKind kind = MemoryKind::kDevice) -> Status {
+    Result<Buffer> made = arena.create_buffer(bytes, kind, purpose);
+    if (!made.ok()) return made.error();
+    buffer = made.value();
+    return {};
+  };
+  const VkDeviceSize of_vertices = VkDeviceSize{vertex_count} * sizeof(RecordedVertex), n = ball_count;
+  if (Status status = make(of_vertices, "vertices that move", vertices); !status) return status;
+  if (Status status = make(VkDeviceSize{triangle_count} * 4 * sizeof(gpu::vec4), "triangles that move", triangles);
+      !status) {
+    return status;
+  }
+  if (Status status = make((gpu::kFollowLists + 3 * n) * 4, "lists of balls", lists); !status) return status;
+  if (Status status = make(n * sizeof(gpu::FollowedBall), "states of balls", states); !status) return status;
+  if (Status status = make(n * sizeof(gpu::FollowedBall), "followed balls", found); !status) return status;
+  if (Status status = make(n * 4, "sides of balls", sides); !status) return status;
+  if (Status status = make((gpu::kUnresolvedFirst + n) * 4, "unresolved balls", unresolved); !status) return status;
+  if (Status status = make(n * sizeof(RecordedBall), "balls", balls); !status) return status;
+  if (Status status = make(n * 4, "states for the host", ball_states); !status) return status;
+  frames.resize(options.frames);
+  for (Frame& frame : frames) {
+    if (Status status = make(of_vertices, "vertices of a frame", frame.staged, MemoryKind::kUpload); !status) {
+      return status;
+    }
+  }
+  return {};
+}
+
+/// Of a buffer that is never read, where kernels read storage.
+Status FollowerJob::Impl::make_views() {
+  use_texels = std::max(4 * triangle_count, 2 * node_count) <= context.limits.maxTexelBufferElements;
+  Buffer unused;
+  if (!use_texels) {
+    Result<Buffer> made = arena.create_buffer(16, MemoryKind::kDevice, "an unused texel buffer");
+    if (!made.ok()) return made.error();
+    unused = made.value();
+  }
+  Result<VkBufferView> of_triangles = arena.create_texel_view(use_texels ? triangles : unused);
+  if (!of_triangles.ok()) return of_triangles.error();
+  Result<VkBufferView> of_nodes = arena.create_texel_view(use_texels ? nodes : unused, VK_FORMAT_R32G32B32A32_UINT);
+  if (!of_nodes.ok()) return of_nodes.error();
+  triangle_texels = of_triangles.value();
+  node_texels = of_nodes.value();
+  return {};
+}
+
+Status FollowerJob::Impl::fill(const IndexedMesh& rest, const Bvh& bvh, const ThreadedTree& tree,
+                               const std::vector<gpu::FollowRest>& at_rest) {
+  std::vector<std::uint32_t> corners;
+  corners.reserve(3 * bvh.order().size());
+  for (const std::uint32_t triangle : bvh.order()) {
+    for (const std::uint32_t corner : rest.view().triangles[triangle]) corners.push_back(corner);
+  }
+  vertex_count = static_cast<std::uint32_t>(rest.view().vertices.size());
+  triangle_count = static_cast<std::uint32_t>(bvh.order().size());
+  ball_count = static_cast<std::uint32_t>(at_rest.size());
+  node_count = tree.node_count();
+  for (std::uint32_t level = 0; level < tree.level_count; ++level) level_sizes.push_back(tree.nodes_of(level));
+  if (Status status = make_buffers(); !status) return status;
+  Uploads uploads(context);
+  const auto upload_all = [&]<class T>(const std::vector<T>& values, const char* purpose, Buffer& buffer) -> Status {
+    Result<Buffer> made = create_filled(arena, uploads, std::span(values), purpose);
+    if (!made.ok()) return made.error();
+    buffer = made.value();
+    return {};
+  };
+  if (Status status = upload_all(corners, "indices of vertices", indices); !status) return status;
+  if (Status status = upload_all(tree.nodes, "a tree of triangles that move", nodes); !status) return status;
+  if (Status status = upload_all(tree.levels, "levels of a tree", levels); !status) return status;
+  if (Status status = upload_all(at_rest, "balls at rest", rests); !status) return status;
+  const std::vector<std::uint32_t> none(gpu::kUnresolvedFirst, 0);
+  if (Status status = uploads.add(unresolved, std::as_bytes(std::span(none))); !status) return status;
+  if (Status status = uploads.finish(); !status) return status;
+  return make_views();
+}
+
+void FollowerJob::Impl::refit(Recorder& r) const {
+  gpu::RefitConstants constants = {triangle_count, 0, 0, scale};
+  const std::array of_triangles = {vertices.range(), indices.range(), triangles.range(), lists.range()};
+  r.dispatch({"place_triangles", 4, 0, sizeof(constants), kWorkgroupSize, {}}, of_triangles, {}, bytes_of(constants),
+             triangle_count);
+  r.barrier();
+  const std::array of_nodes = {triangles.range(), nodes.range(), levels.range()};
+  const auto level_count = static_cast<std::uint32_t>(level_sizes.size());
+  while (constants.first_level < level_count) {
+    const std::uint32_t nodes_here = level_sizes[constants.first_level];
+    const bool is_small = nodes_here <= kSmallLevel;  // and so are those above
+    constants.end_level = is_small ? level_count : constants.first_level + 1;
+    const std::uint32_t group = is_small ? kResolveGroup : kWorkgroupSize;
+    r.dispatch({"refit_nodes", 3, 0, sizeof(constants), group, {is_small ? 1u : 0u}}, of_nodes, {}, bytes_of(constants),
+               is_small ? group : nodes_here);
+    r.barrier();
+    constants.first_level = constants.end_level;
+  }
+}
+
+void FollowerJob::Impl::follow(Recorder& r) const {
+  const gpu::FollowConstants constants = {ball_count,
+                                          node_count,
+                                          triangle_count,
+                                          from_rest ? 1u : 0u,
+                                          scale,
+                                          1 / scale,
+                                          static_cast<float>(options.shrunk),
+                                          squared_turn_at(options.object_angle)};
+  const std::array buffers = {triangles.storage_range(use_texels),
+                              nodes.storage_range(use_texels),
+                              lists.range(),
+                              rests.range(),
+                              states.range(),
+                              found.range(),
+                              sides.range(),
+                              unresolved.range(),
+                              balls.range(),
+                              ball_states.range()};
+  const std::array texels = {triangle_texels, node_texels};
+  const auto key = [&](const char* shader, std::uint32_t group) {
+    return ProgramKey{std::string(shader) + storage_suffix(use_texels),
+                      static_cast<std::uint32_t>(buffers.size()),
+                      static_cast<std::uint32_t>(texels.size()),
+                      sizeof(constants),
+                      group,
+                      {}};
+  };
+  const auto run = [&](const char* shader) {
+    r.dispatch(key(shader, kWorkgroupSize), buffers, texels, bytes_of(constants), ball_count);
+    r.barrier();
+  };
+  run("follow_balls");
+  const std::array list = {unresolved.range()};
+  r.dispatch({"prepare_resolve", 1, 0, 0, 1, {}}, list, {}, {}, 1);
+  r.barrier();
+  r.dispatch_indirect(key("resolve_followed", kResolveGroup), buffers, texels, bytes_of(constants), unresolved,
+                      gpu::kUnresolvedGroups * 4);
+  r.barrier();
+  for (const char* shader : {"follow_again", "connect_balls", "cast_rays", "settle_balls", "recover_balls"})
+    run(shader);
+}
+
+Status FollowerJob::Impl::append(Recorder& r, const Frame& frame) const {
+  r.barrier_to_others();
+  if (has_vertices) r.copy(frame.staged, 0, vertices, 0, VkDeviceSize{vertex_count} * sizeof(RecordedVertex));
+  r.fill(lists, 0, gpu::kFollowLists * 4, 0);
+  r.barrier();
+  refit(r);
+  follow(r);
+  r.barrier_to_others();
+  return r.status();
+}
+
+Result<FollowerJob> FollowerJob::create(Context& context, const IndexedMesh& rest, std::span<const Ball> balls,
+                                        const FollowerJobOptions& options) {
+  if (options.frames == 0) return Error{ErrorCode::kUsage, "a recorded job requires `frames` of at least 1"};
+  return catch_out_of_memory("preparing a job", [&]() -> Result<FollowerJob> {
+    auto impl = std::make_unique<Impl>(Internals::of(context), options);
+    const MeshView& mesh = rest.view();
+    if (Status fits = impl->check_sizes(mesh.triangles.size(), balls.size(), mesh.vertices.size()); !fits) {
+      return fits.error();
+    }
+    Result<MovingSurface> surface = MovingSurface::build(rest);
+    if (!surface) return surface.error();
+    if (Status status = check_mesh(rest, surface.value()); !status) return status.error();
+    // The host's follower tests that all balls are inside.
+    FollowerOptions on_host;
+    on_host.shrunk = options.shrunk;
+    on_host.object_angle = options.object_angle;
+    on_host.threads = options.threads;
+    if (Result<Follower> tested = Follower::create(rest, balls, on_host); !tested) return tested.error();
+    Result<Bvh> bvh = refined_tree(rest.bvh(), gpu::kMostFollowLeaf);
+    if (!bvh) return bvh.error();
+    impl->scale = static_cast<float>(std::ldexp(1.0, -std::ilogb(rest.longest_side())));
+    Result<std::vector<gpu::FollowRest>> at_rest =
+        make_rest_balls(surface.value(), balls, places_of(bvh.value()), double{impl->scale}, options.threads);
+    if (!at_rest) return at_rest.error();
+    if (Status status = impl->fill(rest, bvh.value(), make_threaded_tree(bvh.value()), at_rest.value()); !status) {
+      return status.error();
+    }
+    const auto rehearse = [&](Recorder& r) { return impl->append(r, impl->frames.front()); };
+    if (Status status = make_programs(impl->context, rehearse); !status) return status.error();
+    return FollowerJob(std::move(impl));
+  });
+}
+
+FollowerJob::FollowerJob(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+FollowerJob::FollowerJob(FollowerJob&&) noexcept = default;
+FollowerJob& FollowerJob::operator=(FollowerJob&&) noexcept = default;
+FollowerJob::~FollowerJob() = default;
+
+Status FollowerJob::set_vertices(std::span<const Point> vertices) {
+  const auto refuse = [](const std::string& why) { return Error{ErrorCode::kInvalidMesh, why}; };
+  if (vertices.size() != impl_->vertex_count) {
+    return refuse("the frame has " + std::to_string(vertices.size()) + " vertices, the mesh has " +
+                  std::to_string(impl_->vertex_count));
+  }
+  const auto is_finite = [](double x) { return std::isfinite(static_cast<float>(x)); };
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (std::ranges::all_of(vertices[i], is_finite)) continue;
+    return refuse("vertex " + std::to_string(i) + " has a coordinate that is not finite");
+  }
+  auto* const staged = static_cast<RecordedVertex*>(impl_->frames[impl_->next].staged.mapped);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) staged[i].position[k] = static_cast<float>(vertices[i][k]);
+  }
+  impl_->has_vertices = true;
+  return {};
+}
+
+void FollowerJob::reset() { impl_->from_rest = true; }
+
+Status FollowerJob::record(VkCommandBuffer commands) {
+  Impl& job = *impl_;
+  Impl::Frame& frame = job.frames[job.next];
+  return catch_out_of_memory("recording a job", [&]() -> Status {
+    if (frame.recorder == nullptr) {
+      frame.recorder = std::make_unique<Recorder>(job.context, commands);
+      frame.recorder->measure_nothing();
+      frame.recorder->keep_sets();
+    } else {
+      frame.recorder->restart(commands);
+    }
+    if (Status status = job.append(*frame.recorder, frame); !status) return status;
+    job.has_vertices = false;
+    job.from_rest = false;
+    job.next = (job.next + 1) % job.frames.size();
+    return {};
+  });
+}
+
+FollowerBuffers FollowerJob::buffers() const {
+  return {impl_->vertices.handle, impl_->balls.handle, impl_->ball_states.handle};
+}
+
+}  // namespace medial_vk

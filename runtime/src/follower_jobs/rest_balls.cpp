@@ -1,0 +1,129 @@
+#include "follower_jobs/rest_balls.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <tuple>
+#include <utility>
+
+#include "base/parallel.h"
+#include "following/greatest_ball.h"
+#include "following/tracked_ball.h"
+#include "medial_vk/ball_union.h"
+
+namespace medial_vk {
+namespace {
+
+constexpr std::size_t kBallsAtATime = 16;  // that one thread takes
+
+/// A ball of the caller touches the surface at the point nearest to its centre.
+TrackedBall tracked_at_rest(const MovingSurface& surface, const Ball& ball) {
+  const BvhHit nearest = surface.closest(ball.centre, std::numeric_limits<double>::infinity());
+  const double distance = std::sqrt(nearest.squared_distance);
+  const BallContact contact = {surface.surface_point(nearest), (1 / distance) * (ball.centre - nearest.point)};
+  TrackedBall tracked = greatest_ball(surface, contact, {});
+  if (!tracked.b.on.is_known()) tracked.b = tracked.a;
+  return tracked;
+}
+
+gpu::vec4 to_floats(const Point& p, double w) {
+  return {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]), static_cast<float>(w)};
+}
+
+gpu::FollowContact packed_contact(const MovingSurface& surface, const BallContact& contact,
+                                  std::span<const std::uint32_t> places, double scale) {
+  const Corners3 corners = surface.corners(contact.on.triangle);
+  const Point inward = surface.inward_normal(contact.on.triangle);
+  const Point& d = contact.towards_centre;
+  const Point products = {scale * dot(d, corners[1] - corners[0]), scale * dot(d, corners[2] - corners[0]),
+                          dot(d, inward)};
+  return {to_floats(d, 0),
+          to_floats(products, dot(inward, inward) > 0 ? 1 : 0),
+          places[contact.on.triangle],
+          static_cast<float>(contact.on.v),
+          static_cast<float>(contact.on.w),
+          0};
+}
+
+gpu::FollowRest packed_rest(const MovingSurface& surface, const TrackedBall& tracked,
+                            std::span<const std::uint32_t> places, double scale) {
+  const double through = radius_through(surface.at(tracked.a.on), tracked.a.towards_centre, surface.at(tracked.b.on));
+  gpu::FollowRest rest = {};
+  rest.followed.a = packed_contact(surface, tracked.a, places, scale);
+  rest.followed.b = packed_contact(surface, tracked.b, places, scale);
+  rest.followed.ball = to_floats(scale * tracked.ball.centre, scale * tracked.ball.radius);
+  rest.through = static_cast<float>(std::min(scale * through, 1e8));
+  rest.turn = static_cast<float>(dot(tracked.a.towards_centre, tracked.b.towards_centre));
+  return rest;
+}
+
+/// Links between balls that overlap little are long, so that short ways avoid them.
+double length_of_link(const Ball& a, const Ball& b) {
+  constexpr double kLittle = 0.2, kLong = 8;  // of the smaller radius
+  const double overlap = a.radius + b.radius - length(a.centre - b.centre);
+  return overlap > kLittle * std::min(a.radius, b.radius) ? 1 : kLong;
+}
+
+}  // namespace
+
+Result<std::vector<std::uint32_t>> overlapping_parents(std::span<const Ball> balls, unsigned threads) {
+  Result<BallUnion> measured = measure_ball_union(balls, BallUnionOptions{threads, true});
+  if (!measured) return measured.error();
+  std::vector<std::vector<std::uint32_t>> neighbours(balls.size());
+  for (const auto& [a, b] : measured.value().complex.edges) {
+    neighbours[a].push_back(b);
+    neighbours[b].push_back(a);
+  }
+  const auto count = static_cast<std::uint32_t>(balls.size());
+  std::vector<std::uint32_t> parents(count), links(count, 0), by_size(count);
+  for (std::uint32_t i = 0; i < count; ++i) parents[i] = by_size[i] = i;
+  std::ranges::stable_sort(by_size, std::greater{}, [&](std::uint32_t i) { return balls[i].radius; });
+  std::vector<double> ways(count, std::numeric_limits<double>::infinity());
+  using Reached = std::tuple<double, std::uint32_t>;  // the length of a way, and the ball at its end
+  std::priority_queue<Reached, std::vector<Reached>, std::greater<>> next;
+  for (const std::uint32_t root : by_size) {
+    if (ways[root] < std::numeric_limits<double>::infinity()) continue;
+    next.emplace(ways[root] = 0, root);
+    while (!next.empty()) {
+      const auto [way, ball] = next.top();
+      next.pop();
+      if (way > ways[ball]) continue;
+      links[ball] = parents[ball] == ball ? 0 : links[parents[ball]] + 1;
+      if (links[ball] >= gpu::kMostFollowLinks) continue;  // balls beyond are roots of their own
+      for (const std::uint32_t other : neighbours[ball]) {
+        const double longer = way + length_of_link(balls[ball], balls[other]);
+        if (!(longer < ways[other])) continue;
+        parents[other] = ball;
+        next.emplace(ways[other] = longer, other);
+      }
+    }
+  }
+  return parents;
+}
+
+Result<std::vector<gpu::FollowRest>> make_rest_balls(const MovingSurface& surface, std::span<const Ball> balls,
+                                                     std::span<const std::uint32_t> places, double scale,
+                                                     unsigned threads) {
+  std::vector<TrackedBall> tracked(balls.size());
+  parallel_for(balls.size(), kBallsAtATime, threads,
+               [&](std::size_t i) { tracked[i] = tracked_at_rest(surface, balls[i]); });
+  std::vector<std::uint32_t> order(balls.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return places[tracked[i].a.on.triangle]; });
+  std::vector<Ball> sorted(balls.size());
+  for (std::size_t i = 0; i < order.size(); ++i) sorted[i] = tracked[order[i]].ball;
+  Result<std::vector<std::uint32_t>> parents = overlapping_parents(sorted, threads);
+  if (!parents) return parents.error();
+  std::vector<gpu::FollowRest> rests;
+  rests.reserve(balls.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    rests.push_back(packed_rest(surface, tracked[order[i]], places, scale));
+    rests.back().parent = parents.value()[i];
+    rests.back().index = order[i];
+  }
+  return rests;
+}
+
+}  // namespace medial_vk

@@ -1,0 +1,83 @@
+// The surface of a frame, as kernels of balls read it, and the arrays of the balls. All of these kernels have the same
+// buffers.
+//
+// A triangle is four vectors: its corners, with the inverse squares of the lengths of the edges 01, 02 and 12 (0 for an
+// edge without length), and its unit normal (0 without a meaningful area).
+//
+// The tree has its nodes in depth-first order, two vectors each: the lower corner of the box as bits, and the leaf (0: an
+// inner node); the upper corner, and the next node outside of this one.
+#ifndef MEDIAL_VK_FOLLOWING_FRAME_GLSL
+#define MEDIAL_VK_FOLLOWING_FRAME_GLSL
+#include "follow_types.h"
+#include "lanes/workgroup_index.glsl"
+
+layout(local_size_x_id = 0) in;
+layout(push_constant) uniform Push { FollowConstants push; };
+layout(set = 0, binding = 0) readonly buffer TriangleStorage { vec4 triangle_storage[]; };
+layout(set = 0, binding = 1) readonly buffer NodeStorage { uvec4 node_storage[]; };
+layout(set = 0, binding = 2) buffer Lists { uint lists[]; };
+layout(set = 0, binding = 3) readonly buffer Rests { FollowRest rests[]; };
+layout(set = 0, binding = 4) buffer States { FollowedBall states[]; };  // after the last frame
+layout(set = 0, binding = 5) buffer Found { FollowedBall found[]; };    // in this one
+layout(set = 0, binding = 6) buffer Sides { uint sides[]; };
+layout(set = 0, binding = 7) buffer Unresolved { uint unresolved[]; };
+layout(set = 0, binding = 8) writeonly buffer Balls { vec4 balls[]; };
+layout(set = 0, binding = 9) writeonly buffer BallStates { uint ball_states[]; };
+layout(set = 0, binding = 10) uniform samplerBuffer triangle_texels;
+layout(set = 0, binding = 11) uniform usamplerBuffer node_texels;
+
+// Texels take a fraction of the time on lavapipe (tree/triangles.glsl).
+#ifdef STORAGE
+const bool kUseTexels = false;
+#else
+const bool kUseTexels = true;
+#endif
+vec4 triangle_vector(uint i) { return kUseTexels ? texelFetch(triangle_texels, int(i)) : triangle_storage[i]; }
+uvec4 node_vector(uint i) { return kUseTexels ? texelFetch(node_texels, int(i)) : node_storage[i]; }
+
+uint invocation_index() { return workgroup_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x; }
+
+uint list_entry(uint list, uint index) { return lists[kFollowLists + (list - kFollowAgain) * push.ball_count + index]; }
+void append(uint list, uint entry) {
+  uint index = atomicAdd(lists[list], 1u);
+  lists[kFollowLists + (list - kFollowAgain) * push.ball_count + index] = entry;
+}
+
+// Of the box around all triangles: its longest side, and this plus the greatest coordinate.
+float longest_side() {
+  vec3 sides = uintBitsToFloat(node_vector(1u).xyz) - uintBitsToFloat(node_vector(0u).xyz);
+  return max(sides.x, max(sides.y, sides.z));
+}
+float greatest_length() {
+  vec3 far = max(abs(uintBitsToFloat(node_vector(0u).xyz)), abs(uintBitsToFloat(node_vector(1u).xyz)));
+  return longest_side() + max(far.x, max(far.y, far.z));
+}
+
+bool is_refused() {
+  float side = longest_side();
+  return lists[kFollowRefused] != 0u || !(side >= kLeastFollowSide && side <= kMostFollowSide);
+}
+
+// Bounds of rounding (docs/theory.md, "Balls on the device"), in units of greatest_length(): by which a ball ends before
+// the surface, so that its own contact is not found in it; the rounding of its distance; the least radius.
+const float kContactSlack = 16.0 * 1.1920929e-7;
+const float kDistanceRounding = 32.0 * 1.1920929e-7;
+const float kLeastRadius = 64.0 * 1.1920929e-7;
+
+struct Corners {
+  vec3 a, b, c;
+};
+
+Corners corners_of(uint triangle) {
+  return Corners(triangle_vector(4u * triangle).xyz, triangle_vector(4u * triangle + 1u).xyz, triangle_vector(4u * triangle + 2u).xyz);
+}
+// Towards the inside; 0 without a meaningful area.
+vec3 inward_normal(uint triangle) { return -triangle_vector(4u * triangle + 3u).xyz; }
+
+// Of length 1, or 0.
+vec3 unit_or_zero(vec3 v) {
+  float square = dot(v, v);
+  return square > 1e-30 ? inversesqrt(square) * v : vec3(0.0);
+}
+
+#endif

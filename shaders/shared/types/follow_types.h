@@ -1,0 +1,86 @@
+// Structures and numbers that C++ and GLSL share about balls that follow a mesh (docs/theory.md, "Balls on the device").
+// Lengths on the device are those of the caller times a power of two, by which the longest side of the rest pose becomes
+// 1 to 2.
+#ifndef MEDIAL_VK_FOLLOW_TYPES_H
+#define MEDIAL_VK_FOLLOW_TYPES_H
+
+#include "gpu_types.h"
+
+#ifdef __cplusplus
+namespace medial_vk::gpu {
+#endif
+
+// A contact of a ball. `carried`: the products of `towards` with the edges from corner 0 and with the inward normal of
+// the triangle, in the frame that it belongs to; w: 1 if the triangle had an area then.
+struct FollowContact {
+  vec4 towards;  // unit vector to the centre; w: unused
+  vec4 carried;
+  uint triangle;  // position in the order of the tree
+  float v, w;     // shares of the edges from corner 0 to the corners 1 and 2
+  uint unused;
+};
+
+struct FollowedBall {
+  FollowContact a, b;
+  vec4 ball;  // w: radius; 0: lost
+};
+
+// A ball in the rest pose.
+struct FollowRest {
+  FollowedBall followed;
+  float through;  // radius of the ball that touches at a and passes through b
+  float turn;     // cosine of the angle between the directions at both
+  uint parent;    // a ball that overlaps it; itself: none
+  uint index;     // its place in the order of the caller
+};
+
+// Words of the lists; three lists of as many words as there are balls follow from kFollowLists on.
+MEDIAL_VK_GPU_CONSTANT kFollowRefused = 0u;  // not 0: a coordinate of this frame is not finite, or too large
+MEDIAL_VK_GPU_CONSTANT kFollowAgain = 1u;    // lengths of the lists: balls that are tried in other ways, too,
+MEDIAL_VK_GPU_CONSTANT kFollowRays = 2u;     // balls whose sides are decided by rays,
+MEDIAL_VK_GPU_CONSTANT kFollowLost = 3u;     // balls that are to be recovered
+MEDIAL_VK_GPU_CONSTANT kFollowLists = 4u;
+MEDIAL_VK_GPU_CONSTANT kFollowOfImage = 0x80000000u;  // in a list: what was tried is the image of the ball at rest
+
+// States of balls, in the order of FollowState.
+MEDIAL_VK_GPU_CONSTANT kFollowMedial = 0u;
+MEDIAL_VK_GPU_CONSTANT kFollowFlat = 1u;
+MEDIAL_VK_GPU_CONSTANT kFollowShrunk = 2u;
+MEDIAL_VK_GPU_CONSTANT kFollowIsLost = 3u;
+
+// Where the side of a ball comes from: a ball that overlaps it, or one of these.
+MEDIAL_VK_GPU_CONSTANT kFollowOutside = 0xfffffffeu;
+MEDIAL_VK_GPU_CONSTANT kFollowInside = 0xffffffffu;
+MEDIAL_VK_GPU_CONSTANT kMostFollowLinks = 1000u;  // from a ball to its parent, to the parent of that, and so on
+
+MEDIAL_VK_GPU_CONSTANT kFollowLeafBits = 24u;  // a leaf: number of triangles above, the first one below
+MEDIAL_VK_GPU_CONSTANT kMostFollowLeaf = 4u;
+
+// The longest side of a frame may be from 1/4096 to 4096 times the unit, and coordinates up to 2^20.
+MEDIAL_VK_GPU_CONSTANT_FLOAT kLeastFollowSide = 0.000244140625f;
+MEDIAL_VK_GPU_CONSTANT_FLOAT kMostFollowSide = 4096.0f;
+MEDIAL_VK_GPU_CONSTANT_FLOAT kMostFollowCoordinate = 1048576.0f;
+
+// Push constants of the kernels of balls.
+struct FollowConstants {
+  uint ball_count;
+  uint node_count;
+  uint triangle_count;
+  uint from_rest;       // 1: the frame before is the rest pose
+  float scale;          // a length of the caller times this
+  float inverse_scale;  // is one of the device times this
+  float shrunk;         // share of the radius in the rest pose
+  float flat_turn;      // the square of the difference of both directions at the least object angle
+};
+
+// Push constants of the kernels of the tree.
+struct RefitConstants {
+  uint triangle_count;
+  uint first_level, end_level;  // of heights above the leaves
+  float scale;
+};
+
+#ifdef __cplusplus
+}  // namespace medial_vk::gpu
+#endif
+#endif
