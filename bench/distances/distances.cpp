@@ -1,6 +1,6 @@
 // Distances of a solid and its copy in random poses, and those of FCL: a row of a table.
-//   bench_distances [--poses N] [--repeats N] MESH INSIDE.csv COVER.csv    bounds by balls
-//   bench_distances [--poses N] [--repeats N] MESH                         exact distances
+//   bench_distances [--poses N] [--repeats N] BODY.npz    bounds by balls
+//   bench_distances [--poses N] [--repeats N] MESH        exact distances
 // Poses: any rotation, a shift of up to two sides (of the box around the mesh) in any direction; those that overlap,
 // and distances above one side, are left out. "Warm" queries start from the result for a pose one degree and one
 // percent of a side away. Times are of the processor, medians of the repeats, per query, on one thread; the methods
@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "../unions/ball_files.h"
+#include "body_files/body_file.h"
 #include "fcl_peer.h"
 #include "input/read_mesh.h"
 #include "measuring.h"
@@ -137,7 +137,7 @@ void measure_bounds(const std::string& name, const Mesh& mesh, const Body& body,
     return distance_bounds(body, body, pose, start);
   };
   const auto all = queries<DistanceBounds>([&](const Pose& pose) { return ask(pose, {}); }, side, poses);
-  double mean_width = 0, greatest_width = 0, middle_error = 0;
+  double mean_width = 0, greatest_width = 0, middle_error = 0, estimate_error = 0;
   std::size_t wrong = 0;
   const double share = 100 / side / static_cast<double>(all.size());
   for (const auto& query : all) {
@@ -147,11 +147,12 @@ void measure_bounds(const std::string& name, const Mesh& mesh, const Body& body,
     if (!FclPeer::is_there()) continue;
     const double exact = peer.distance(query.pose);
     middle_error += share * std::abs(exact - (bounds.lower + bounds.upper) / 2);
+    estimate_error += share * std::abs(exact - estimated_distance(body, body, bounds));
     wrong += !(bounds.lower <= exact && exact <= bounds.upper);
   }
   fmt::print("| {} | {} | {} / {} | {:.2f} / {:.2f} | {} | {} |\n", name, mesh.triangles.size(), body.inside().size(),
              body.cover().size(), mean_width, greatest_width, times_of(all, ask, peer, repeats),
-             FclPeer::is_there() ? fmt::format("{:.3f} | {}", middle_error, wrong) : " | ");
+             FclPeer::is_there() ? fmt::format("{:.3f} | {:.3f} | {}", estimate_error, middle_error, wrong) : " | | ");
 }
 
 void measure_exact(const std::string& name, const Mesh& mesh, std::size_t poses, int repeats) {
@@ -185,22 +186,21 @@ void measure_exact(const std::string& name, const Mesh& mesh, std::size_t poses,
 int main(int argc, char** argv) {
   std::size_t poses = 2000;
   int repeats = 7;
-  std::string mesh_file, inside_file, cover_file;
+  std::string file;
   CLI::App app("Distances of a solid and its copy in random poses, and those of FCL.");
   app.add_option("--poses", poses, "poses of the copy")->check(CLI::PositiveNumber);
   app.add_option("--repeats", repeats, "runs, of which the median counts")->check(CLI::PositiveNumber);
-  app.add_option("mesh", mesh_file)->required();
-  app.add_option("inside", inside_file);
-  app.add_option("cover", cover_file);
+  app.add_option("file", file, "a mesh or a body file")->required();
   CLI11_PARSE(app, argc, argv);
 
-  const Mesh mesh = or_exit(read_mesh(mesh_file));
-  const std::size_t slash = mesh_file.rfind('/') + 1;
-  const std::string name = mesh_file.substr(slash, mesh_file.rfind('.') - slash);
-  if (cover_file.empty()) {
-    measure_exact(name, mesh, poses, repeats);
+  const std::size_t slash = file.rfind('/') + 1;
+  const std::string name = file.substr(slash, file.find('.', slash) - slash);
+  if (!is_body_file(file)) {
+    measure_exact(name, or_exit(read_mesh(file)), poses, repeats);
     return 0;
   }
-  const Body body = or_exit(Body::create(bench::read_balls(inside_file), bench::read_balls(cover_file)));
-  measure_bounds(name, mesh, body, poses, repeats);
+  const BodyFile read = or_exit(read_body_file(file));
+  const IndexedMesh indexed = or_exit(
+      IndexedMesh::build(or_exit(prepare_mesh(read.mesh, {.keep_inner_faces = true, .keep_outer_faces = true}))));
+  measure_bounds(name, read.mesh, or_exit(Body::create(indexed, read.inside, read.cover)), poses, repeats);
 }

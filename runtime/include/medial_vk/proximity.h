@@ -104,6 +104,11 @@ struct PosedPair {
 /// bounds may be 0 and infinity.
 DistanceBounds distance_bounds(const Body& a, const Body& b, const Pose& pose, const DistanceBounds& start = {});
 
+/// An estimate of the distance, in the interval of `bounds`, a result for `a` and `b`. It divides the interval as the
+/// errors of the four balls that give the bounds are to each other on average, which Body::create() measures around a
+/// mesh with both sets; at the middle if it knows none. Without an upper bound, the lower one. Allocates nothing.
+double estimated_distance(const Body& a, const Body& b, const DistanceBounds& bounds);
+
 /// The same for every pose; most searches start from the result before them. Precondition: `bounds` has the size of
 /// `poses`.
 void distance_bounds(const Body& a, const Body& b, std::span<const Pose> poses, std::span<DistanceBounds> bounds,

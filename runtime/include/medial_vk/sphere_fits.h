@@ -48,6 +48,10 @@ struct SphereFitOptions {
   /// proof, and a cover by `count` is searched for that number alone, so that it may have more volume than one of a
   /// smaller `count`. Without `levels`.
   bool balls_only = false;
+  /// For distances to other solids: the balls are chosen such that these become bounds of little difference, instead of
+  /// for a small volume error, which is greater then. Method kBest, contract kInside or kCover, `count` alone, without
+  /// `levels`.
+  bool for_distances = false;
   unsigned threads = 0;  ///< Of the host, 0: one per core. The result does not depend on it.
 
   bool operator==(const SphereFitOptions&) const = default;

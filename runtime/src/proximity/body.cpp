@@ -134,6 +134,10 @@ Result<Body> Body::create(const IndexedMesh& mesh, std::span<const Ball> inside,
       if (!solid) return solid.error();
       const auto impl = impl_of<Impl>(&mesh, inside, cover);
       impl->surface = std::make_unique<BodySurface>(std::move(solid).value(), impl->centre, options.threads, watch);
+      if (!inside.empty() && !cover.empty()) {
+        impl->errors = mean_errors(impl->surface->solid, impl->inside_tree, impl->cover_tree, impl->centre,
+                                   options.threads, watch);
+      }
       return Body(impl);
     } catch (const BuildStopped&) {
       return Error{ErrorCode::kInterrupted, "interrupted"};

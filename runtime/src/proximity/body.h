@@ -8,6 +8,7 @@
 #include "medial_vk/proximity.h"
 #include "proximity/body_tree.h"
 #include "proximity/large_balls.h"
+#include "proximity/mean_errors.h"
 #include "proximity/surface_tree.h"
 #include "solid/solid.h"
 
@@ -29,6 +30,7 @@ struct Body::Impl {
   BodyTree inside_tree, cover_tree;
   LargeBalls large_inside;
   std::unique_ptr<const BodySurface> surface;  ///< Null: without a mesh.
+  MeanErrors errors;                           ///< Known with a mesh and both sets.
 };
 
 using BodyImpl = Internals::ImplOf<Body>::Type;

@@ -5,7 +5,7 @@
 
 #include "base/parallel.h"
 #include "proximity/nearest_triangles.h"
-#include "proximity/placed_distance.h"
+#include "proximity/placement.h"
 
 namespace medial_vk {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "base/parallel.h"
 #include "proximity/closest_balls.h"
-#include "proximity/placed_distance.h"
+#include "proximity/placement.h"
 
 namespace medial_vk {
 namespace {
@@ -62,6 +62,19 @@ DistanceBounds distance_bounds(const Body& a, const Body& b, const Pose& pose, c
     bounds.upper = upper_bound(in_a, in_b, placement, kUnbounded, bounds.inside_pair);
   }
   return bounds;
+}
+
+double estimated_distance(const Body& a, const Body& b, const DistanceBounds& bounds) {
+  if (!(bounds.upper < kUnbounded)) return bounds.lower;
+  const MeanErrors &of_a = Internals::of(a).errors, &of_b = Internals::of(b).errors;
+  const auto error = [](const std::vector<float>& errors, std::uint32_t ball) {
+    return ball < errors.size() ? static_cast<double>(errors[ball]) : 0.0;
+  };
+  const BallPair &cover = bounds.cover_pair, &inside = bounds.inside_pair;
+  const double below = error(of_a.cover, cover.a) + error(of_b.cover, cover.b);
+  const double above = error(of_a.inside, inside.a) + error(of_b.inside, inside.b);
+  const double share = below + above > 0 ? below / (below + above) : 0.5;
+  return std::clamp(bounds.lower + share * (bounds.upper - bounds.lower), bounds.lower, bounds.upper);
 }
 
 void distance_bounds(const Body& a, const Body& b, std::span<const Pose> poses, std::span<DistanceBounds> bounds,

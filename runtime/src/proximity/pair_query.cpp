@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "proximity/groups/smallest_ball_centre.h"
-#include "proximity/placed_distance.h"
+#include "proximity/placement.h"
 
 namespace medial_vk {
 namespace {

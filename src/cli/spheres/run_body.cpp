@@ -98,6 +98,8 @@ class BodyRun {
     };
     SphereFitOptions fit_options = options_.spheres;
     fit_options.contract = contract;
+    // An error is one of the volume, which sets for distances give up for nearness.
+    fit_options.for_distances = fit_options.error == 0;
     Result<SphereFit> fit = shared_.context
                                 ? fit_spheres(*mesh_, fit_options, *shared_.context, on_progress, stop.get_token())
                                 : fit_spheres(*mesh_, fit_options, reference_with_estimate(shared_.progress),

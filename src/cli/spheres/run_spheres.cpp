@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/stopwatch.h"
+#include "cli/help/help_texts.h"
 #include "cli/options/spheres_options.h"
 #include "cli/shared/load.h"
 #include "cli/shared/reference_with_estimate.h"

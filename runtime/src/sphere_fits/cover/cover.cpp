@@ -17,6 +17,8 @@ namespace {
 constexpr std::size_t kFew = 64;
 /// The least growth of radii before the proof, as a share of the diagonal.
 constexpr double kRoom = 1e-9;
+/// What probes count for, compared with the area of the boundary.
+constexpr double kProbesCount = 8;
 
 /// Number of elements of the boundary: enough that an element reaches only negligibly out of a ball that holds its
 /// middle.
@@ -25,8 +27,10 @@ std::size_t elements_for(std::size_t balls) {
   return balls <= kFew ? 10'000 : std::min<std::size_t>(6'000 + 4 * balls, 60'000);
 }
 
-CoverSearch search_for(const Solid& solid, std::vector<Ball> balls, const Threads& threads) {
+CoverSearch search_for(const Solid& solid, std::vector<Ball> balls, std::span<const Probe> probes,
+                       const Threads& threads) {
   CoverElements elements(solid, elements_for(balls.size()), threads);
+  if (!probes.empty()) elements.add(probes, kProbesCount * elements.whole_area());
   return {std::move(elements), std::move(balls), 0.1 * solid.diagonal(), threads};
 }
 
@@ -67,7 +71,8 @@ std::vector<Ball> spread_over(const std::vector<Point>& points, std::size_t coun
 
 }  // namespace
 
-Cover::Cover(const Solid& solid, std::vector<Ball> balls, unsigned threads, const Report& report)
+Cover::Cover(const Solid& solid, std::vector<Ball> balls, unsigned threads, const Report& report,
+             std::span<const Probe> probes)
     : solid_(solid),
       threads_(threads,
                [report] {
@@ -75,7 +80,8 @@ Cover::Cover(const Solid& solid, std::vector<Ball> balls, unsigned threads, cons
                  return true;
                }),
       report_(report),
-      search_(search_for(solid, std::move(balls), threads_)) {}
+      search_(search_for(solid, std::move(balls), probes, threads_)),
+      has_probes_(!probes.empty()) {}
 
 void Cover::search(double from, double until) {
   keep();
@@ -101,6 +107,7 @@ void Cover::shrink() {
 }
 
 double Cover::measure() const {
+  if (has_probes_) return search_.total();
   const Result<BallUnion> measured = measure_ball_union(search_.balls(), {threads_.count, false});
   if (!measured) throw std::bad_alloc();  // The balls are finite, so the error is one of memory.
   return measured.value().volume;
@@ -111,9 +118,10 @@ void Cover::keep() {
   best_ = search_.balls();
 }
 
-/// Repeats steps until two gain less than a thousandth of the volume; keeps the best set of balls.
+/// Repeats steps until two gain less than a thousandth of the volume, or a hundredth of the sum of columns, which is a
+/// small part of that volume; keeps the best set of balls.
 void Cover::improve(int rounds, double from, double until) {
-  constexpr double kGain = 1e-3;
+  const double least_gain = has_probes_ ? 1e-2 : 1e-3;
   constexpr int kPatience = 2;
   int idle = 0;
   for (int round = 0; round < rounds && idle < kPatience; ++round) {
@@ -122,7 +130,7 @@ void Cover::improve(int rounds, double from, double until) {
     search_.trade();
     search_.slide();
     const double now = measure();
-    idle = now < volume_ * (1 - kGain) ? 0 : idle + 1;
+    idle = now < volume_ * (1 - least_gain) ? 0 : idle + 1;
     if (now < volume_) {
       volume_ = now;
       best_ = search_.balls();
@@ -178,13 +186,14 @@ std::vector<Ball> Cover::certified() const {
   }
 }
 
-Cover search_cover(const Solid& solid, std::vector<Ball> inside, unsigned threads, const Cover::Report& report) {
+Cover search_cover(const Solid& solid, std::vector<Ball> inside, unsigned threads, const Cover::Report& report,
+                   std::span<const Probe> probes) {
   constexpr std::size_t kStartPoints = 4000;
   const std::size_t count = inside.size();
-  Cover best(solid, std::move(inside), threads, report);
+  Cover best(solid, std::move(inside), threads, report, probes);
   best.search(0, count <= kFew ? 0.4 : 0.8);
   if (count <= kFew) {
-    Cover other(solid, spread_over(sample_surface(solid.mesh().mesh, kStartPoints), count), threads, report);
+    Cover other(solid, spread_over(sample_surface(solid.mesh().mesh, kStartPoints), count), threads, report, probes);
     other.search(0.4, 0.8);
     if (other.volume() < best.volume()) {
       other.polish();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "solid/solid.h"
@@ -17,8 +18,10 @@ class Cover {
   /// throw Stopped.
   using Report = std::function<void(double)>;
 
-  /// Balls grow from these. Keeps a reference to the solid.
-  Cover(const Solid& solid, std::vector<Ball> balls, unsigned threads, const Report& report);
+  /// Balls grow from these. With probes, what counts is how near balls come to their points outside, and the volume
+  /// less. Keeps a reference to the solid.
+  Cover(const Solid& solid, std::vector<Ball> balls, unsigned threads, const Report& report,
+        std::span<const Probe> probes = {});
 
   /// Repeats steps until they gain little, between two shares of the work; then also with finer elements.
   void search(double from, double until);
@@ -28,7 +31,7 @@ class Cover {
 
   /// The balls; some may have radius 0.
   std::size_t count() const { return search_.balls().size(); }
-  /// The exact volume of the union; that of certified() is not smaller.
+  /// The exact volume of the union; that of certified() is not smaller. With probes, the sum of all columns.
   double volume() const { return volume_; }
   /// Fills the gaps that the proof finds, and finally lets all balls grow until it finds none.
   std::vector<Ball> certified() const;
@@ -45,12 +48,15 @@ class Cover {
   Report report_;
   CoverSearch search_;
   std::vector<Ball> best_;
+  bool has_probes_;
   double volume_ = 0;
   std::size_t improved_ = 0;  // number of balls when all were last improved
 };
 
-/// The full search from these balls, or, where balls are few, from others if the result is smaller.
-Cover search_cover(const Solid& solid, std::vector<Ball> inside, unsigned threads, const Cover::Report& report);
+/// The full search from these balls, or, where balls are few, from others if the result is smaller. With probes: as for
+/// Cover.
+Cover search_cover(const Solid& solid, std::vector<Ball> inside, unsigned threads, const Cover::Report& report,
+                   std::span<const Probe> probes = {});
 
 /// The smallest ball that holds all vertices, with a margin.
 Ball ball_around(const Solid& solid);

@@ -23,6 +23,7 @@ CoverElements::CoverElements(const Solid& solid, std::size_t elements, const Thr
   for (const Triangle& t : mesh.triangles) {
     area += 0.5 * length(cross(mesh.vertices[t[1]] - mesh.vertices[t[0]], mesh.vertices[t[2]] - mesh.vertices[t[0]]));
   }
+  whole_area_ = area;
   // Elements whose longest side is between half of this and all of it have about that area on average.
   const double longest = 2 * std::sqrt(area / static_cast<double>(elements));
   for (const Triangle& t : mesh.triangles) {
@@ -92,20 +93,36 @@ void CoverElements::add(std::span<const Point> points) {
   const double size = length(twice);
   area_.push_back(size / 2);
   normal_.push_back(size > 0 ? (1 / size) * twice : Point{});
+  distance_.push_back(0);
+}
+
+void CoverElements::add(std::span<const Probe> probes, double area) {
+  for (const Probe& probe : probes) {
+    add({&probe.at, 1});
+    area_.back() = area / static_cast<double>(probes.size());
+    normal_.back() = probe.direction;
+    distance_.back() = probe.distance;
+  }
+  arrange();
 }
 
 void CoverElements::refine(const std::vector<bool>& which) {
-  const std::vector<Point> points = std::move(points_);
+  const std::vector<Point> points = std::move(points_), normals = std::move(normal_);
+  const std::vector<double> areas = std::move(area_), distances = std::move(distance_);
   const std::vector<std::uint32_t> first = std::move(first_);
   points_.clear();
   first_.assign(1, 0);
   middle_.clear();
   area_.clear();
   normal_.clear();
+  distance_.clear();
   for (std::size_t element = 0; element + 1 < first.size(); ++element) {
     const std::span<const Point> p(points.data() + first[element], first[element + 1] - first[element]);
     if (!which[element] || p.size() != 3) {
       add(p);
+      area_.back() = areas[element];
+      normal_.back() = normals[element];
+      distance_.back() = distances[element];
       continue;
     }
     const Point ab = 0.5 * (p[0] + p[1]), bc = 0.5 * (p[1] + p[2]), ca = 0.5 * (p[2] + p[0]);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "medial_vk/ball.h"
+#include "solid/probes.h"
 #include "solid/solid.h"
 #include "sphere_fits/quality/threads.h"
 
@@ -23,16 +24,23 @@ class CoverElements {
     return {points_.data() + first_[element], first_[element + 1] - first_[element]};
   }
   const Point& middle(std::uint32_t element) const { return middle_[element]; }
-  /// The area of a triangle; zero for other elements.
+  /// The area of a triangle, or what a probe counts for; zero for other elements.
   double area(std::uint32_t element) const { return area_[element]; }
-  /// The outward unit normal of a triangle; zero for other elements and for triangles without area.
+  /// The outward unit normal of a triangle, or the direction of a probe; zero for other elements and for triangles
+  /// without area.
   const Point& normal(std::uint32_t element) const { return normal_[element]; }
+  /// From a probe to its point outside; zero for other elements.
+  double distance(std::uint32_t element) const { return distance_[element]; }
   /// The least radius around a centre that holds the element.
   double needed(const Point& centre, std::uint32_t element) const;
   /// Indices of all elements whose middles are in the ball; a ball that holds an element holds its middle.
   void gather(const Ball& ball, std::vector<std::uint32_t>& found) const;
 
   void add(std::span<const Point> points);
+  /// Adds elements of one point each, which count for `area` together. Precondition: there is a probe.
+  void add(std::span<const Probe> probes, double area);
+  /// Of all triangles.
+  double whole_area() const { return whole_area_; }
   /// Divides these triangles in four; cells are unchanged. Other elements may change their indices.
   void refine(const std::vector<bool>& which);
 
@@ -53,6 +61,8 @@ class CoverElements {
   std::vector<Point> middle_;
   std::vector<double> area_;
   std::vector<Point> normal_;
+  std::vector<double> distance_;
+  double whole_area_ = 0;
   std::vector<Box> boxes_;            // each before those within it
   std::vector<std::uint32_t> order_;  // elements by leaf; elements added later are in none
 };

@@ -4,7 +4,6 @@
 #include <limits>
 #include <utility>
 
-#include "sphere_fits/cover/cover_column.h"
 #include "sphere_fits/cover/smallest_ball.h"
 #include "sphere_fits/quality/nearest_ball_tree.h"
 
@@ -22,16 +21,6 @@ CoverSearch::CoverSearch(CoverElements elements, std::vector<Ball> balls, double
     ball.radius = std::max(ball.radius, elements_.needed(ball.centre, element) * kCoverRoom);
   }
   recount();
-}
-
-double CoverSearch::cost_of(std::uint32_t element, double height) const {
-  return elements_.area(element) * column(height);
-}
-
-/// The volume of a column over a unit of area.
-double CoverSearch::column(double height) const {
-  const double spread = height / ease_;
-  return height * (1 + spread + spread * spread / 3);
 }
 
 double CoverSearch::highest(std::uint32_t element, std::uint32_t but) const {
@@ -87,8 +76,7 @@ void CoverSearch::replace(std::uint32_t i, const Ball& ball) {
   if (ball.radius == 0) return;
   elements_.gather(ball, touched_[i]);
   for (const std::uint32_t element : touched_[i]) {
-    const double height =
-        elements_.area(element) > 0 ? height_over(ball, elements_.middle(element), elements_.normal(element)) : 0;
+    const double height = elements_.area(element) > 0 ? column(element).height(ball) : 0;
     const double rest = highest(element, i);
     if (height > rest) total_ += cost_of(element, height) - cost_of(element, rest);
     add_holder(element, {i, elements_.needed(ball.centre, element) <= ball.radius, height});
@@ -141,7 +129,7 @@ bool CoverSearch::costs_more(std::uint32_t i, double radius, double most) const 
   double sum = 0;
   for (const std::uint32_t element : touched_[i]) {
     if (!(elements_.area(element) > 0)) continue;
-    const double height = height_over(ball, elements_.middle(element), elements_.normal(element));
+    const double height = column(element).height(ball);
     const double paid = highest_[element][0].height;
     if (height > paid) sum += cost_of(element, height) - cost_of(element, paid);
     if (sum > most) return true;

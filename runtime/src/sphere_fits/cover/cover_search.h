@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "sphere_fits/cover/cover_column.h"
 #include "sphere_fits/cover/cover_elements.h"
 
 namespace medial_vk {
@@ -34,6 +35,8 @@ class CoverSearch {
   void add(std::span<const Point> points);
 
   const std::vector<Ball>& balls() const { return balls_; }
+  /// The sum of all columns.
+  double total() const { return total_; }
   /// Restores previous balls, which must hold the elements.
   void restore(std::vector<Ball> balls);
 
@@ -60,8 +63,12 @@ class CoverSearch {
   /// Changes a ball and the state of the elements around it, total_ included.
   void replace(std::uint32_t i, const Ball& ball);
   void undo(const std::vector<Saved>& saved);
-  double cost_of(std::uint32_t element, double height) const;
-  double column(double height) const;
+  Column column(std::uint32_t element) const {
+    return {elements_.middle(element), elements_.normal(element), elements_.distance(element)};
+  }
+  double cost_of(std::uint32_t element, double height) const {
+    return elements_.area(element) * column(element).cost(height, ease_);
+  }
   double highest(std::uint32_t element, std::uint32_t but) const;
   static void rank(const Holder& holder, Highest& two);
   void add_holder(std::uint32_t element, const Holder& holder);

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "base/point_ops.h"
-#include "sphere_fits/cover/cover_column.h"
 #include "sphere_fits/cover/cover_search.h"
 #include "sphere_fits/cover/smallest_ball.h"
 #include "sphere_fits/quality/branch_and_bound.h"
@@ -36,27 +35,27 @@ Ball CoverSearch::best_around(std::uint32_t i, const std::vector<std::uint32_t>&
   std::vector<std::uint32_t> near;
   const double reach = std::max(best.radius, smallest.radius + length(smallest.centre - from));
   elements_.gather({from, 1.6 * reach}, near);
-  struct Column {
-    Point middle, direction;
+  struct Paid {
+    Column column;
     double area, rest, paid;
   };
-  std::vector<Column> columns;
+  std::vector<Paid> columns;
   for (const std::uint32_t element : near) {
     if (!(elements_.area(element) > 0)) continue;
     const double rest = highest(element, i);
-    columns.push_back(
-        {elements_.middle(element), elements_.normal(element), elements_.area(element), rest, column(rest)});
+    const Column over = column(element);
+    columns.push_back({over, elements_.area(element), rest, over.cost(rest, ease_)});
   }
   /// Stops where it is more than `enough`.
   const auto cost = [&](const Ball& ball, double enough) {
     double sum = 0;
     const double most = ball.radius * ball.radius;
-    for (const Column& each : columns) {
-      const Point w = each.middle - ball.centre;
+    for (const Paid& each : columns) {
+      const Point w = each.column.from - ball.centre;
       if (dot(w, w) > most) continue;
-      const double height = height_over(ball, each.middle, each.direction);
+      const double height = each.column.height(ball);
       if (height <= each.rest) continue;
-      sum += each.area * (column(height) - each.paid);
+      sum += each.area * (each.column.cost(height, ease_) - each.paid);
       if (sum > enough) break;
     }
     return sum;

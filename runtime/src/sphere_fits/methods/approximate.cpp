@@ -2,14 +2,17 @@
 #include <cmath>
 #include <exception>
 #include <iterator>
+#include <mutex>
 #include <new>
 #include <utility>
 
 #include "base/host_memory.h"
+#include "sphere_fits/cover/cover.h"
 #include "sphere_fits/cover/cover_family.h"
 #include "sphere_fits/methods/approximate.h"
 #include "sphere_fits/methods/best_method.h"
 #include "sphere_fits/methods/dilation.h"
+#include "sphere_fits/methods/nearness.h"
 #include "sphere_fits/methods/prefixes.h"
 #include "sphere_fits/methods/source_method.h"
 
@@ -52,8 +55,14 @@ Status check_request(const Solid& solid, const SphereFitOptions& options) {
   if (options.error > 0 && !solid.has_volume()) {
     return usage("`error` is a share of the volume, which this mesh does not enclose cleanly; use `count` instead");
   }
-  // Balls inside keep a distance of the rounding from the boundary.
   if (options.balls_only && options.levels) return usage("`balls_only` gives one set of balls, and no levels");
+  if (options.for_distances) {
+    const bool is_by_count = options.count > 0 && options.error == 0 && options.max_gap == 0 && !options.levels;
+    if (options.method == SphereMethod::kBest && options.contract != SphereContract::kBalanced && is_by_count)
+      return {};
+    return usage("`for_distances` gives sets of the method best, inside or covers, by `count` alone, without levels");
+  }
+  // Balls inside keep a distance of the rounding from the boundary.
   if (options.max_gap > 0 && options.max_gap < 16 * solid.rounding()) {
     return usage("`max_gap` is below the rounding of distances");
   }
@@ -117,6 +126,33 @@ Result<std::vector<SphereSet>> levels_below(const Solid& solid, const SphereFitO
   return levels;
 }
 
+/// Sets for distances, from the balls inside that the method finds for their volume.
+Result<SphereSet> best_for_distances(const Solid& solid, const SphereFitOptions& options, const Extractor& extractor,
+                                     const SphereProgress& progress) {
+  SphereFitOptions start = options;
+  start.contract = SphereContract::kInside;
+  Result<SphereSet> inside = best_spheres(solid, start, extractor, progress);
+  if (!inside) return inside.error();
+  std::vector<Ball>& balls = inside.value().balls;
+  const bool covers = options.contract == SphereContract::kCover;
+  std::mutex mutex;  // for one call at a time
+  const auto report = [&](double done) {
+    const std::lock_guard lock(mutex);
+    if (progress && !progress(covers ? "cover" : "spheres", done)) throw Stopped();
+  };
+  const Threads threads = {options.threads, [&] {
+                             report(covers ? 0 : 1);
+                             return true;
+                           }};
+  constexpr std::size_t kLeast = 1024, kOfBall = 16, kOfCovering = 4;
+  const std::size_t wanted = std::max(kLeast, (covers ? kOfCovering : kOfBall) * balls.size());
+  const std::vector<Probe> probes = probes_around(solid, wanted, options.threads, threads.goes_on);
+  if (covers) return SphereSet{search_cover(solid, std::move(balls), options.threads, report, probes).certified()};
+  balls = nearer_balls(solid, balls, probes, threads);
+  if (Status status = order_by_share(balls, options.threads); !status) return status.error();
+  return SphereSet{std::move(balls)};
+}
+
 Result<std::vector<SphereSet>> best_covers(const Solid& solid, const SphereFitOptions& options, bool all_levels,
                                            const Extractor& extractor, const SphereProgress& progress) {
   const std::size_t count = options.count;
@@ -160,6 +196,11 @@ Result<std::vector<SphereSet>> best_balanced(const Solid& solid, const SphereFit
 Result<std::vector<SphereSet>> levels_of(const Solid& solid, const SphereFitOptions& options, bool all_levels,
                                          const Extractor& extractor, const SphereProgress& progress) {
   if (Status status = check_request(solid, options); !status) return status.error();
+  if (options.for_distances) {
+    Result<SphereSet> set = best_for_distances(solid, options, extractor, progress);
+    if (!set) return set.error();
+    return std::vector<SphereSet>{std::move(set).value()};
+  }
   if (options.contract == SphereContract::kCover && options.method == SphereMethod::kBest) {
     return best_covers(solid, options, all_levels, extractor, progress);
   }

@@ -1,0 +1,196 @@
+#include "sphere_fits/methods/nearness.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <queue>
+#include <utility>
+
+#include "base/point_ops.h"
+#include "sphere_fits/steps/ball_steps.h"
+#include "sphere_fits/steps/maximal_ball.h"
+
+namespace medial_vk {
+namespace {
+
+/// A choice of balls among candidates, from which the points outside of the probes are little farther than from the
+/// solid: the sum of the squares of these differences is small. (Squares, because the greatest matter, too.) What a set
+/// saves is a submodular function of it, as each point has the greatest of its balls' savings (facilities and clients),
+/// so that old gains bound new ones.
+class Choice {
+ public:
+  /// No difference is greater than the root of `greatest`.
+  Choice(std::span<const Probe> probes, float greatest, std::vector<Ball> candidates, const Threads& threads)
+      : candidates_(std::move(candidates)), threads_(threads), chosen_(candidates_.size()), far_(greatest) {
+    for (const Probe& probe : probes) {
+      const Point p = probe.outside();
+      for (std::size_t k = 0; k < 3; ++k) at_[k].push_back(static_cast<float>(p[k]));
+      from_solid_.push_back(static_cast<float>(probe.distance));
+    }
+    least_.assign(probes.size(), far_);
+  }
+
+  void choose(std::uint32_t candidate) {
+    chosen_[candidate] = true;
+    visit(candidates_[candidate], [&](std::size_t i, float cost) { least_[i] = std::min(least_[i], cost); });
+  }
+
+  /// Adds the candidates of the greatest gains, one after the other.
+  void add(std::size_t count) {
+    std::vector<double> gains(candidates_.size());
+    for_all(gains.size(), 8, threads_, [&](std::size_t i) { gains[i] = chosen_[i] ? 0 : gain(candidates_[i]); });
+    std::priority_queue<Entry> queue;
+    for (std::uint32_t i = 0; i < gains.size(); ++i) {
+      if (gains[i] > 0) queue.push({gains[i], i, 0});
+    }
+    for (std::size_t round = 0; round < count && !queue.empty();) {
+      Entry best = queue.top();
+      queue.pop();
+      if (best.round == round) {
+        choose(best.candidate);
+        ++round;
+        continue;
+      }
+      threads_.check();
+      best = {gain(candidates_[best.candidate]), best.candidate, round};
+      if (best.gain > 0) queue.push(best);
+    }
+  }
+
+  /// Removes the balls without which the sum of the distances grows least; of those that are not in `kept`.
+  void remove(std::size_t count, std::size_t kept) {
+    std::vector<std::uint32_t> nearest(least_.size());
+    std::vector<float> second(least_.size(), far_);
+    std::fill(least_.begin(), least_.end(), far_);
+    for (std::uint32_t c = 0; c < candidates_.size(); ++c) {
+      if (!chosen_[c]) continue;
+      visit(candidates_[c], [&](std::size_t i, float cost) {
+        const bool is_nearest = cost < least_[i];
+        second[i] = std::min(second[i], is_nearest ? least_[i] : cost);
+        nearest[i] = is_nearest ? c : nearest[i];
+        least_[i] = std::min(least_[i], cost);
+      });
+    }
+    std::vector<double> losses(candidates_.size());
+    for (std::size_t i = 0; i < least_.size(); ++i) losses[nearest[i]] += static_cast<double>(second[i]) - least_[i];
+    std::vector<std::pair<double, std::uint32_t>> order;
+    for (std::uint32_t c = 0; c < candidates_.size(); ++c) {
+      if (chosen_[c] && c >= kept) order.emplace_back(losses[c], c);
+    }
+    std::sort(order.begin(), order.end());
+    order.resize(std::min(order.size(), count));
+    for (const auto& [loss, c] : order) chosen_[c] = false;
+    std::fill(least_.begin(), least_.end(), far_);
+    for (std::uint32_t c = 0; c < candidates_.size(); ++c) {
+      if (chosen_[c]) choose(c);
+    }
+  }
+
+  /// Of the squares, over all points.
+  double sum() const {
+    double sum = 0;
+    for (const float cost : least_) sum += cost;
+    return sum;
+  }
+
+  /// By candidate.
+  const std::vector<bool>& chosen() const { return chosen_; }
+  const Ball& candidate(std::size_t i) const { return candidates_[i]; }
+  std::size_t size() const { return candidates_.size(); }
+
+ private:
+  struct Entry {
+    double gain;
+    std::uint32_t candidate;
+    std::size_t round;
+    bool operator<(const Entry& other) const {
+      return gain != other.gain ? gain < other.gain : candidate > other.candidate;
+    }
+  };
+
+  /// The squared difference for each point.
+  template <class Visit>
+  void visit(const Ball& ball, const Visit& visit) const {
+    const auto x = static_cast<float>(ball.centre[0]), y = static_cast<float>(ball.centre[1]),
+               z = static_cast<float>(ball.centre[2]), radius = static_cast<float>(ball.radius);
+    for (std::size_t i = 0; i < least_.size(); ++i) {
+      const float dx = at_[0][i] - x, dy = at_[1][i] - y, dz = at_[2][i] - z;
+      const float more = std::max(0.0f, std::sqrt(dx * dx + dy * dy + dz * dz) - radius - from_solid_[i]);
+      visit(i, more * more);
+    }
+  }
+
+  double gain(const Ball& ball) const {
+    constexpr std::size_t kLanes = 16;
+    std::array<float, kLanes> sums{};
+    visit(ball, [&](std::size_t i, float cost) { sums[i % kLanes] += std::max(0.0f, least_[i] - cost); });
+    double sum = 0;
+    for (const float each : sums) sum += each;
+    return sum;
+  }
+
+  std::vector<Ball> candidates_;
+  const Threads& threads_;
+  std::vector<bool> chosen_;
+  float far_;
+  std::array<std::vector<float>, 3> at_;  // the points outside, and
+  std::vector<float> from_solid_;         // their distances from it
+  std::vector<float> least_;              // the squares for the chosen balls
+};
+
+/// The largest balls that touch the boundary next to probes: there from inside, at several depths, as next to an edge
+/// the depth determines the size.
+std::vector<Ball> balls_at(const Solid& solid, std::span<const Probe> probes, const Threads& threads) {
+  constexpr std::array<double, 3> kDepths = {1e-3, 6e-3, 3e-2};  // of the diagonal
+  std::vector<Ball> found(kDepths.size() * probes.size());
+  for_all(found.size(), 16, threads, [&](std::size_t i) {
+    const Probe& probe = probes[i / kDepths.size()];
+    const Point inside = probe.at - kDepths[i % kDepths.size()] * solid.diagonal() * probe.direction;
+    if (!solid.contains(inside)) return;
+    const Ball ball = maximal_ball(solid, inside);
+    if (ball.radius > 0 && stays_inside(solid, ball)) found[i] = ball;
+  });
+  std::erase_if(found, [](const Ball& ball) { return !(ball.radius > 0); });
+  return found;
+}
+
+/// Three quarters: with more, the distances grow; with fewer, the uncovered volume does (docs/decisions.md).
+std::size_t kept_of(std::size_t count) { return count - count / 4; }
+
+}  // namespace
+
+std::vector<Ball> nearer_balls(const Solid& solid, std::span<const Ball> balls, std::span<const Probe> probes,
+                               const Threads& threads) {
+  constexpr std::size_t kRounds = 4, kOfRound = 8;
+  const std::size_t count = balls.size(), kept = kept_of(count), placed = count - kept;
+  if (placed == 0) return {balls.begin(), balls.end()};
+  std::vector<Ball> candidates(balls.begin(), balls.end());
+  const std::vector<Ball> more = balls_at(solid, probes.first(std::min(probes.size(), 4 * count)), threads);
+  candidates.insert(candidates.end(), more.begin(), more.end());
+  Choice choice(probes, static_cast<float>(9 * solid.diagonal() * solid.diagonal()), std::move(candidates), threads);
+  for (std::uint32_t i = 0; i < kept; ++i) choice.choose(i);
+  choice.add(placed);
+  std::vector<bool> best = choice.chosen();
+  double least = choice.sum();
+  for (std::size_t round = 0; round < kRounds; ++round) {
+    const std::size_t part = std::max<std::size_t>(1, placed / (kOfRound + 2 * round));
+    choice.remove(part, kept);
+    choice.add(part);
+    if (!(choice.sum() < least)) continue;
+    least = choice.sum();
+    best = choice.chosen();
+  }
+  std::vector<Ball> nearer;
+  for (std::size_t i = 0; i < choice.size(); ++i) {
+    if (best[i]) nearer.push_back(choice.candidate(i));
+  }
+  // Where further balls bring nothing nearer, as in a ball.
+  for (std::size_t i = kept; i < count && nearer.size() < count; ++i) {
+    if (!best[i]) nearer.push_back(balls[i]);
+  }
+  return nearer;
+}
+
+}  // namespace medial_vk
