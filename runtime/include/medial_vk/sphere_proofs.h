@@ -1,4 +1,5 @@
-// Proofs that given balls lie inside a solid, or cover it, of any origin (docs/theory.md, "Tight spheres").
+// Proofs that balls of any origin lie inside a solid, or cover it, and how far its boundary is from them
+// (docs/theory.md, "Tight spheres").
 #pragma once
 
 #include <span>
@@ -29,5 +30,20 @@ struct SphereProofs {
 /// beyond 1e18; names the set), kOutOfMemory, kInterrupted; those of measure_ball_union().
 Result<SphereProofs> prove_spheres(const IndexedMesh& mesh, std::span<const Ball> inside, std::span<const Ball> cover,
                                    const ProofOptions& options = {}, const std::stop_token& stop = {});
+
+/// Bounds of the greatest distance from a point of the boundary to the balls, in mesh units: 0 if they hold it. They
+/// differ by at most a thousandth of the diagonal of the mesh's box, unless its triangles need more than two million
+/// parts. Balls of radius 0 are left out. Time: some milliseconds per thousand triangles. Errors: kUsage (no ball with
+/// a positive radius, more than 2^24 balls, or a number as above), kOutOfMemory, kInterrupted; those of
+/// measure_ball_union().
+Result<Bounds> measure_gap(const IndexedMesh& mesh, std::span<const Ball> balls, const ProofOptions& options = {},
+                           const std::stop_token& stop = {});
+
+/// A lower bound of the depth of each point in the solid, in mesh units: its distance to the boundary if it is inside,
+/// and minus that distance if it is outside, less a bound of the rounding. A ball around the point with that radius, if
+/// it is positive, is proved to be inside, as by prove_spheres(). Sets one element of `depths` for each point. Errors:
+/// kUsage (as many depths as points are required; a number as above), kOutOfMemory, kInterrupted.
+Status measure_depths(const IndexedMesh& mesh, std::span<const Point> points, std::span<double> depths,
+                      const ProofOptions& options = {}, const std::stop_token& stop = {});
 
 }  // namespace medial_vk

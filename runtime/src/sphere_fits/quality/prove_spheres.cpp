@@ -1,8 +1,12 @@
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <vector>
 
 #include "base/format_text.h"
 #include "base/host_memory.h"
 #include "medial_vk/sphere_proofs.h"
+#include "sphere_fits/quality/envelope_distance.h"
 #include "sphere_fits/quality/sphere_certificate.h"
 
 namespace medial_vk {
@@ -64,6 +68,46 @@ Result<SphereProofs> prove_spheres(const IndexedMesh& mesh, std::span<const Ball
     } catch (const Stopped&) {
       return Error{ErrorCode::kInterrupted, "interrupted"};
     }
+  });
+}
+
+Result<Bounds> measure_gap(const IndexedMesh& mesh, std::span<const Ball> balls, const ProofOptions& options,
+                           const std::stop_token& stop) {
+  if (Status status = check_numbers(balls, "`balls`"); !status) return status.error();
+  return catch_out_of_memory("measuring the gap of a set of balls", [&]() -> Result<Bounds> {
+    std::vector<Ball> present;
+    std::ranges::copy_if(balls, std::back_inserter(present), [](const Ball& ball) { return ball.radius > 0; });
+    if (present.empty()) return Error{ErrorCode::kUsage, "`balls` has no ball with a positive radius"};
+    Result<Solid> solid = Solid::build(mesh);
+    if (!solid) return solid.error();
+    EnvelopeOptions measured;
+    measured.threads = {options.threads, [&stop] { return !stop.stop_requested(); }};
+    return measure_greatest_gap(solid.value(), present, measured);
+  });
+}
+
+Status measure_depths(const IndexedMesh& mesh, std::span<const Point> points, std::span<double> depths,
+                      const ProofOptions& options, const std::stop_token& stop) {
+  if (points.size() != depths.size()) {
+    return Error{ErrorCode::kUsage,
+                 format_text("`depths` has {} elements for {} `points`", depths.size(), points.size())};
+  }
+  const Threads threads(options.threads, [&stop] { return !stop.stop_requested(); });
+  return catch_out_of_memory("measuring depths in a solid", [&]() -> Status {
+    std::vector<Ball> balls;
+    for (const Point& point : points) balls.push_back({point, 0});
+    if (Status status = check_numbers(balls, "`points`"); !status) return status;
+    const Result<Solid> solid = Solid::build(mesh);
+    if (!solid) return solid.error();
+    try {
+      for_all(points.size(), 16, threads, [&](std::size_t i) {
+        const double distance = solid.value().distance(points[i]);
+        depths[i] = (solid.value().contains(points[i]) ? distance : -distance) - solid.value().rounding();
+      });
+    } catch (const Stopped&) {
+      return Error{ErrorCode::kInterrupted, "interrupted"};
+    }
+    return {};
   });
 }
 
