@@ -12,6 +12,7 @@
 #include "cli/clearance/clearance_views.h"
 #include "cli/clearance/fitted_links.h"
 #include "cli/clearance/robot_and_scene.h"
+#include "cli/help/help_texts.h"
 #include "cli/options/clearance_options.h"
 #include "cli/shared/device_opening.h"
 #include "cli/shared/pair_views.h"

@@ -11,6 +11,7 @@
 #include "body_files/body_file.h"
 #include "cli/distance/distance_summary.h"
 #include "cli/distance/distance_views.h"
+#include "cli/help/help_texts.h"
 #include "cli/options/distance_options.h"
 #include "cli/shared/load.h"
 #include "cli/shared/load_body.h"

@@ -15,6 +15,7 @@
 #include "cli/doctor/examine_vulkan.h"
 #include "cli/doctor/machine.h"
 #include "cli/doctor/trial.h"
+#include "cli/help/help_texts.h"
 #include "cli/options/doctor_options.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/messages.h"

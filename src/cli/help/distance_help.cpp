@@ -1,7 +1,5 @@
 // The text of `medial-vk distance --help`.
-#include <string>
-
-#include "cli/options/distance_options.h"
+#include "cli/help/help_texts.h"
 
 namespace medial_vk::cli {
 

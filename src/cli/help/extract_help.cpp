@@ -1,7 +1,5 @@
 // The text of --help: written by hand, to be read from top to bottom by new users.
-#include <string>
-
-#include "cli/options/options.h"
+#include "cli/help/help_texts.h"
 
 namespace medial_vk::cli {
 
@@ -19,6 +17,8 @@ Usage:
                                poses: medial-vk distance --help
   medial-vk clearance [options] ROBOT.urdf   the same among links of a robot:
                                medial-vk clearance --help
+  medial-vk follow [options] REST FRAME...   balls inside a mesh that deforms:
+                               medial-vk follow --help
   medial-vk doctor [options]   whether it works on this machine, and what is
                                missing: medial-vk doctor --help
 

@@ -1,7 +1,5 @@
 // The text of `medial-vk doctor --help`.
-#include <string>
-
-#include "cli/options/doctor_options.h"
+#include "cli/help/help_texts.h"
 
 namespace medial_vk::cli {
 

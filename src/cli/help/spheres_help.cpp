@@ -1,7 +1,5 @@
 // The text of `medial-vk spheres --help`.
-#include <string>
-
-#include "cli/options/spheres_options.h"
+#include "cli/help/help_texts.h"
 
 namespace medial_vk::cli {
 
@@ -38,8 +36,9 @@ What they guarantee:
       --contract WHAT   inside: no sphere reaches out of the solid (default);
                         cover: all of the solid is covered, for safety;
                         balanced: neither, the least volume between spheres and
-                        solid; both: inside and cover, N of each, with the mesh
-                        in a body file (part.body.npz), for medial-vk distance
+                        solid; both: inside and cover, N of each, chosen for
+                        distances, with the mesh in a body file (part.body.npz),
+                        for medial-vk distance
       --method HOW      best: chosen and moved for the least volume uncovered, or
                         as the contract requires (default); source: one
                         sphere per voxel, the largest voxels with no more than N

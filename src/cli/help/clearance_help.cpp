@@ -1,7 +1,5 @@
 // The text of `medial-vk clearance --help`.
-#include <string>
-
-#include "cli/options/clearance_options.h"
+#include "cli/help/help_texts.h"
 
 namespace medial_vk::cli {
 

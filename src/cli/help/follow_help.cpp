@@ -1,0 +1,91 @@
+// The text of `medial-vk follow --help`.
+#include "cli/help/help_texts.h"
+
+namespace medial_vk::cli {
+
+// long: a single text.
+std::string follow_help_text() {
+  return R"(medial-vk follow moves balls inside a solid with its deforming surface. In every
+frame each ball is proved to be inside (by --rule tangent, the default), and the
+volume of the solid in no ball is measured.
+
+Usage:
+  medial-vk follow [options] REST FRAME...   meshes with the same triangles, or
+                                             a pattern in quotes for names:
+                                             walk_%04d.obj, walk_####.obj or
+                                             walk_*.obj
+  medial-vk follow [options] SCENE           a .gltf or .glb with an animation:
+                                             skins, shapes or moving nodes
+
+Examples:
+  medial-vk follow part.obj bent.obj twisted.obj --count 100 -o part.npz
+  medial-vk follow walk_0000.obj "walk_*.obj" -o walk.csv -o walk.glb
+  medial-vk follow dancer.glb --html dancer.html --picture dancer.png
+  medial-vk spheres part.obj --count 64          makes part.spheres.csv
+  medial-vk follow part.obj bent.obj --balls part.spheres.csv --check
+
+The motion:
+      --animation NAME  of a scene with several: the name, or the number from 1
+      --fps F           frames a second of an animation, and of what is written
+                        (default 30)
+
+The balls:
+      --count N         fit so many balls inside the mesh at rest (default 500)
+      --points          all medial points at --resolution N instead
+      --balls FILE      balls in a file: a table (CSV) with the columns x, y, z
+                        and radius, a medial PLY, or a body file (.npz); "-": a
+                        table on standard input
+      --resolution N    voxels along the longest side, for balls to choose from
+                        (default: by the number of balls)
+      --backend NAME    vulkan or cpu (the reference, slow) finds them
+      --device NAME     index or part of the name of the Vulkan device
+
+How they follow:
+      --rule NAME       tangent (default): a ball keeps two contacts, and is as
+                        large as it can be inside; published: one contact, as
+                        in the source, and balls that may reach out a little
+      --steps N         steps of each frame towards more volume, for tangent
+                        (default 1)
+      --from-rest       compute each frame from rest, not from the frame before
+      --protrusion XI   for published: how far balls may reach out, as a share
+                        of the longest side (default 0.0025)
+      --shrunk S        a ball below S of its radius at rest counts as shrunk
+                        (default 0.5)
+      --object-angle A  a ball whose contacts are nearer to each other, in
+                        radians, counts as flat: no longer medial (default 0.5)
+
+Output:
+  -o, --output FILE     may be given several times (default: REST.follow.npz)
+                        .npz: the balls of all frames, frames x balls x 4
+                        .glb: balls as an animation
+                        .csv: a line per frame: volumes, the greatest distance
+                        from the surface to the balls, and the number of balls
+                        in each state; "-": that table on standard output
+      --picture FILE    a .png with up to twelve frames side by side
+      --html FILE       a page that plays the motion
+      --rig FILE        a .json with the balls bound to the joints of the
+                        animation, for engines that move vertices so
+      --view FROM       of the picture: front, back, left, right, top, bottom,
+                        iso or x,y,z, the direction towards the viewer
+      --up AXIS         of picture and page: x, y, z, -x, -y or -z (default y)
+      --check           also test every ball of every frame by the independent
+                        CPU reference; exit code 7 if one reaches out
+      --threads N       CPU threads, 0 for all (default 0)
+
+Other:
+  -q, --quiet           only errors
+  -v, --verbose         also what was assumed of the mesh, and the time of each
+                        step
+  -h, --help            print this and exit
+
+The first frame that is written is the rest pose. A ball that finds no place in
+a frame is lost there, with radius 0, and may return. Faces inside the solid
+count as a part of its boundary. Files appear whole or not at all.
+
+Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 mesh or frame unreadable
+or invalid, 4 no Vulkan device, 5 out of memory, 6 cannot write, 7 --check
+failed, 130 interrupted.
+)";
+}
+
+}  // namespace medial_vk::cli
