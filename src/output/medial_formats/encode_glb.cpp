@@ -46,10 +46,16 @@ std::string root_node(const Point& middle, std::size_t children) {
   return out + (children > 0 ? "]}" : "}");
 }
 
+Point middle_of(std::span<const MedialSphere> spheres) {
+  CentreBox box;
+  for (const MedialSphere& sphere : spheres) box.add(sphere.centre);
+  return box.middle();
+}
+
 class GlbEncoder {
  public:
   GlbEncoder(const MedialHeader& header, std::span<const MedialSphere> spheres)
-      : header_(header), spheres_(spheres), middle_(middle_of_centres(spheres)) {
+      : header_(header), spheres_(spheres), middle_(middle_of(spheres)) {
     glb_.document = {{"asset", asset(header)}, {"scene", 0}, {"scenes", {{{"nodes", {0}}}}}};
   }
 
@@ -89,7 +95,7 @@ class GlbEncoder {
   std::vector<Indices> add_unit_balls(std::uint32_t detail) {
     std::vector<Indices> occurring;
     if (spheres_.empty()) return occurring;
-    const GltfJson attributes = add_unit_vertices(make_icosphere(detail));
+    const GltfJson attributes = add_unit_ball(glb_, detail);
     auto by_colour = spheres_by_colour(spheres_, header_.object_angle);
     for (std::uint32_t step = 0; step < kColourSteps; ++step) {
       if (by_colour[step].empty()) continue;
@@ -103,21 +109,10 @@ class GlbEncoder {
     return occurring;
   }
 
-  /// The normal at a point of the unit sphere is the point itself.
-  GltfJson add_unit_vertices(const Icosphere& unit) {
-    std::vector<Vector> vertices;
-    for (const Point& v : unit.vertices) vertices.push_back({shortened(v[0]), shortened(v[1]), shortened(v[2])});
-    const std::size_t points = glb_.add_vectors(vertices, GltfTarget::kVertices, true);
-    Indices corners;
-    for (const auto& triangle : unit.triangles) corners.insert(corners.end(), triangle.begin(), triangle.end());
-    return {{"attributes", {{"POSITION", points}, {"NORMAL", points}}},
-            {"indices", glb_.add_indices(corners, GltfComponent::kUnsignedShort)}};
-  }
-
   /// Values have the digits of doubles, so that programs that read nodes as doubles and as floats get the same numbers.
   void append_node(std::string& out, std::size_t i, std::uint32_t mesh) const {
     const MedialSphere& sphere = spheres_[i];
-    const GlbBall ball = glb_ball(sphere, middle_);
+    const GlbBall ball = glb_ball({sphere.centre, sphere.radius}, middle_);
     const std::array<double, 3> centre = {ball.centre[0], ball.centre[1], ball.centre[2]};
     const double radius = ball.radius;
     out += fmt::format(
@@ -129,7 +124,7 @@ class GlbEncoder {
   GltfJson instances_node(std::uint32_t mesh, const Indices& indices) {
     std::vector<Vector> centres, sizes;
     for (const std::uint32_t i : indices) {
-      const GlbBall ball = glb_ball(spheres_[i], middle_);
+      const GlbBall ball = glb_ball({spheres_[i].centre, spheres_[i].radius}, middle_);
       centres.push_back(ball.centre);
       sizes.push_back({ball.radius, ball.radius, ball.radius});
     }

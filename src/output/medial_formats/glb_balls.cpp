@@ -12,15 +12,19 @@ float shortened(double x) {
   return std::abs(static_cast<double>(rounded)) > std::abs(x) ? std::nextafter(rounded, 0.0f) : rounded;
 }
 
-Point middle_of_centres(std::span<const MedialSphere> spheres) {
-  if (spheres.empty()) return {0, 0, 0};
+void CentreBox::add(const Point& centre) {
+  if (is_empty_) lower_ = upper_ = centre;
+  is_empty_ = false;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    lower_[axis] = std::min(lower_[axis], centre[axis]);
+    upper_[axis] = std::max(upper_[axis], centre[axis]);
+  }
+}
+
+Point CentreBox::middle() const {
   Point middle;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto by_coordinate = [axis](const MedialSphere& a, const MedialSphere& b) {
-      return a.centre[axis] < b.centre[axis];
-    };
-    const auto [least, greatest] = std::minmax_element(spheres.begin(), spheres.end(), by_coordinate);
-    middle[axis] = static_cast<float>(least->centre[axis] + (greatest->centre[axis] - least->centre[axis]) / 2);
+    middle[axis] = static_cast<float>(lower_[axis] + (upper_[axis] - lower_[axis]) / 2);
   }
   return middle;
 }
@@ -28,17 +32,17 @@ Point middle_of_centres(std::span<const MedialSphere> spheres) {
 // The radius is reduced by the motion of the centre: the distance of the rounded centre from the exact one, and the
 // error of that distance, from the difference of doubles (2^-53 of the largest) and some operations (2^-50 of the
 // result).
-GlbBall glb_ball(const MedialSphere& sphere, const Point& middle) {
+GlbBall glb_ball(const Ball& of, const Point& middle) {
   GlbBall ball;
   double moved = 0;
   double largest = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double from_middle = sphere.centre[axis] - middle[axis];
+    const double from_middle = of.centre[axis] - middle[axis];
     ball.centre[axis] = static_cast<float>(from_middle);
     moved = std::hypot(moved, from_middle - static_cast<double>(ball.centre[axis]));
     largest = std::max(largest, std::abs(from_middle));
   }
-  const double radius = sphere.radius - moved * (1 + 0x1p-50) - 0x1p-51 * largest;
+  const double radius = of.radius - moved * (1 + 0x1p-50) - 0x1p-51 * largest;
   ball.radius = shortened(std::max(0.0, radius));
   return ball;
 }

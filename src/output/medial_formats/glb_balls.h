@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "medial_vk/ball.h"
 #include "medial_vk/medial_spheres.h"
 
 namespace medial_vk {
@@ -13,8 +14,17 @@ namespace medial_vk {
 /// Rounds to a float towards 0.
 float shortened(double x);
 
-/// The middle of the box around all centres, rounded to floats; the origin if there are none.
-Point middle_of_centres(std::span<const MedialSphere> spheres);
+/// The box around centres.
+class CentreBox {
+ public:
+  void add(const Point& centre);
+  /// Rounded to floats; the origin if there are no centres.
+  Point middle() const;
+
+ private:
+  Point lower_ = {0, 0, 0}, upper_ = {0, 0, 0};
+  bool is_empty_ = true;
+};
 
 /// A ball around `centre` + the middle, inside the ball that it represents.
 struct GlbBall {
@@ -22,7 +32,7 @@ struct GlbBall {
   float radius = 0;
 };
 
-GlbBall glb_ball(const MedialSphere& sphere, const Point& middle);
+GlbBall glb_ball(const Ball& of, const Point& middle);
 
 /// Colours are quantised to these steps, so that few materials suffice.
 inline constexpr std::uint32_t kColourSteps = 32;

@@ -6,6 +6,8 @@
 
 #include "common/tool_errors.h"
 #include "output/atomic_files/little_endian.h"
+#include "output/medial_formats/glb_balls.h"
+#include "output/medial_formats/icosphere.h"
 
 namespace medial_vk {
 namespace {
@@ -73,6 +75,17 @@ std::size_t GlbContainer::add_indices(std::span<const std::uint32_t> indices, Gl
                       {{"componentType", component}, {"count", indices.size()}, {"type", "SCALAR"}});
 }
 
+std::size_t GlbContainer::add_times(std::span<const float> times) {
+  const std::size_t begin = buffer_.size();
+  for (const float time : times) append_little_endian(buffer_, time);
+  return add_accessor(begin, GltfTarget::kNone,
+                      {{"componentType", GltfComponent::kFloat},
+                       {"count", times.size()},
+                       {"type", "SCALAR"},
+                       {"min", {times.front()}},
+                       {"max", {times.back()}}});
+}
+
 std::size_t GlbContainer::add_colours(std::span<const std::array<std::uint16_t, 4>> colours) {
   const std::size_t begin = buffer_.size();
   for (const std::array<std::uint16_t, 4>& colour : colours) {
@@ -91,7 +104,8 @@ Result<std::string> GlbContainer::finish(const std::string& nodes) {
     document["bufferViews"] = views_;
     document["buffers"] = {{{"byteLength", buffer_.size()}}};
   }
-  std::string json = document.dump();
+  // Names may come from files, in any bytes.
+  std::string json = document.dump(-1, ' ', false, GltfJson::error_handler_t::replace);
   json.pop_back();
   json += fmt::format(",\"nodes\":{}}}", nodes);
   pad(json, ' ');
@@ -109,6 +123,18 @@ Result<std::string> GlbContainer::finish(const std::string& nodes) {
   append_chunk(out, "JSON", json);
   if (!buffer_.empty()) append_chunk(out, std::string_view("BIN\0", 4), buffer_);
   return out;
+}
+
+// The normal at a point of the unit sphere is the point itself.
+GltfJson add_unit_ball(GlbContainer& glb, std::uint32_t detail) {
+  const Icosphere unit = make_icosphere(detail);
+  std::vector<std::array<float, 3>> vertices;
+  for (const Point& v : unit.vertices) vertices.push_back({shortened(v[0]), shortened(v[1]), shortened(v[2])});
+  const std::size_t points = glb.add_vectors(vertices, GltfTarget::kVertices, true);
+  std::vector<std::uint32_t> corners;
+  for (const auto& triangle : unit.triangles) corners.insert(corners.end(), triangle.begin(), triangle.end());
+  return {{"attributes", {{"POSITION", points}, {"NORMAL", points}}},
+          {"indices", glb.add_indices(corners, GltfComponent::kUnsignedShort)}};
 }
 
 }  // namespace medial_vk

@@ -24,9 +24,11 @@ class GlbContainer {
   GltfJson document;
 
   /// Three floats each. With `bounds` the least and the greatest coordinates are recorded too, as positions require.
-  /// This function and the next two return the index of the accessor.
+  /// This function and the next three return the index of the accessor.
   std::size_t add_vectors(std::span<const std::array<float, 3>> vectors, GltfTarget target, bool bounds);
   std::size_t add_indices(std::span<const std::uint32_t> indices, GltfComponent component);
+  /// Seconds, ascending, as the input of animations.
+  std::size_t add_times(std::span<const float> times);
   /// Components are fractions of 65535.
   std::size_t add_colours(std::span<const std::array<std::uint16_t, 4>> colours);
 
@@ -41,5 +43,9 @@ class GlbContainer {
   GltfJson views_ = GltfJson::array();
   std::string buffer_;
 };
+
+/// The attributes and indices of a primitive, a sphere around the origin (output/medial_formats/icosphere.h) with all
+/// vertices in the unit ball.
+GltfJson add_unit_ball(GlbContainer& glb, std::uint32_t detail);
 
 }  // namespace medial_vk

@@ -67,7 +67,7 @@ bool read_header(std::string_view text, NpyArray& array) {
 
 /// The bytes of one element; 0: not a type that is read.
 std::uint64_t size_of(const std::string& type) {
-  if (type == "|b1") return 1;
+  if (type == "|b1" || type == "|u1") return 1;
   if (type == "<f8" || type == "<u8" || type == "<i8") return 8;
   if (type == "<f4" || type == "<u4" || type == "<i4") return 4;
   if (!type.starts_with("<U")) return 0;

@@ -5,66 +5,23 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "output/medial_formats/glb_balls.h"
 #include "support/medial_points.h"
+#include "unit/output/parsed_glb.h"
 
 namespace medial_vk {
 namespace {
 
 using nlohmann::json;
+using test::Glb;
+using test::parse_glb;
 using test::some_header;
 using test::some_spheres;
+using test::vectors;
 
 constexpr GlbLayout kLayouts[] = {GlbLayout::kNodes, GlbLayout::kGpuInstances, GlbLayout::kOneMesh};
-
-struct Glb {
-  json document;
-  std::string buffer;
-};
-
-std::uint32_t word(const std::string& bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  for (std::size_t i = 4; i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes.at(at + i));
-  return value;
-}
-
-/// Section 4 of the specification of glTF 2.0.
-Glb parse(const std::string& bytes) {
-  EXPECT_EQ(bytes.substr(0, 4), "glTF");
-  EXPECT_EQ(word(bytes, 4), 2u);
-  EXPECT_EQ(word(bytes, 8), bytes.size());
-  EXPECT_EQ(bytes.substr(16, 4), "JSON");
-  const std::size_t json_length = word(bytes, 12);
-  EXPECT_EQ(json_length % 4, 0u);
-  Glb glb = {json::parse(bytes.substr(20, json_length)), {}};
-  const std::size_t next = 20 + json_length;
-  if (next == bytes.size()) return glb;
-  EXPECT_EQ(bytes.substr(next + 4, 4), std::string("BIN\0", 4));
-  EXPECT_EQ(word(bytes, next) % 4, 0u);
-  EXPECT_EQ(next + 8 + word(bytes, next), bytes.size());
-  glb.buffer = bytes.substr(next + 8);
-  EXPECT_EQ(glb.document["buffers"][0]["byteLength"], glb.buffer.size());
-  return glb;
-}
-
-std::vector<std::array<float, 3>> vectors(const Glb& glb, std::size_t accessor) {
-  const json& description = glb.document["accessors"][accessor];
-  EXPECT_EQ(description["componentType"], 5126);
-  EXPECT_EQ(description["type"], "VEC3");
-  const json& view = glb.document["bufferViews"][description["bufferView"].get<std::size_t>()];
-  std::vector<std::array<float, 3>> out(description["count"].get<std::size_t>());
-  EXPECT_EQ(view["byteLength"], out.size() * 12);
-  const auto offset = view["byteOffset"].get<std::size_t>();
-  EXPECT_EQ(offset % 4, 0u);
-  for (std::size_t i = 0; i < 3 * out.size(); ++i) {
-    const std::uint32_t bits = word(glb.buffer, offset + 4 * i);
-    std::memcpy(&out[i / 3][i % 3], &bits, 4);
-  }
-  return out;
-}
 
 /// The distance of a point, given relative to the root, from the centre of a sphere.
 long double distance(const MedialSphere& sphere, const json& root, const std::array<float, 3>& point) {
@@ -84,7 +41,7 @@ void expect_ball(const MedialSphere& sphere, const json& root, const std::array<
 
 TEST(OutputGlb, NodesHoldTheBallsInOrder) {
   const std::vector<MedialSphere> spheres = some_spheres();
-  const Glb glb = parse(encode_glb(some_header(), spheres, GlbLayout::kNodes, {}).value());
+  const Glb glb = parse_glb(encode_glb(some_header(), spheres, GlbLayout::kNodes, {}).value());
   const json& nodes = glb.document["nodes"];
   ASSERT_EQ(nodes.size(), 4u);
   EXPECT_EQ(glb.document["scenes"][0]["nodes"], json::array({0}));
@@ -105,7 +62,7 @@ TEST(OutputGlb, NodesHoldTheBallsInOrder) {
 }
 
 TEST(OutputGlb, TheUnitBallIsInsideTheUnitSphere) {
-  const Glb glb = parse(encode_glb(some_header(), some_spheres(), GlbLayout::kNodes, 3).value());
+  const Glb glb = parse_glb(encode_glb(some_header(), some_spheres(), GlbLayout::kNodes, 3).value());
   const json& primitive = glb.document["meshes"][0]["primitives"][0];
   const auto vertices = vectors(glb, primitive["attributes"]["POSITION"]);
   ASSERT_EQ(vertices.size(), 642u);
@@ -125,7 +82,7 @@ TEST(OutputGlb, TheUnitBallIsInsideTheUnitSphere) {
 
 TEST(OutputGlb, InstancesAreListedByColour) {
   const std::vector<MedialSphere> spheres = some_spheres();
-  const Glb glb = parse(encode_glb(some_header(), spheres, GlbLayout::kGpuInstances, {}).value());
+  const Glb glb = parse_glb(encode_glb(some_header(), spheres, GlbLayout::kGpuInstances, {}).value());
   EXPECT_EQ(glb.document["extensionsRequired"], json({"EXT_mesh_gpu_instancing"}));
   EXPECT_EQ(glb.document["extensionsUsed"], glb.document["extensionsRequired"]);
   const json& nodes = glb.document["nodes"];
@@ -142,7 +99,7 @@ TEST(OutputGlb, InstancesAreListedByColour) {
 
 TEST(OutputGlb, OneMeshHoldsAllBallsAndTheirColours) {
   const std::vector<MedialSphere> spheres = some_spheres();
-  const Glb glb = parse(encode_glb(some_header(), spheres, GlbLayout::kOneMesh, 1).value());
+  const Glb glb = parse_glb(encode_glb(some_header(), spheres, GlbLayout::kOneMesh, 1).value());
   const json& primitive = glb.document["meshes"][0]["primitives"][0];
   const auto vertices = vectors(glb, primitive["attributes"]["POSITION"]);
   ASSERT_EQ(vertices.size(), 3u * 42u);
@@ -161,7 +118,7 @@ TEST(OutputGlb, OneMeshHoldsAllBallsAndTheirColours) {
 // glTF allows no empty array: no meshes, no buffer, no children.
 TEST(OutputGlb, NoBallsAreAValidScene) {
   for (const GlbLayout layout : kLayouts) {
-    const Glb glb = parse(encode_glb(some_header(), {}, layout, {}).value());
+    const Glb glb = parse_glb(encode_glb(some_header(), {}, layout, {}).value());
     EXPECT_EQ(glb.document["nodes"].size(), 1u);
     EXPECT_TRUE(glb.buffer.empty());
     for (const char* key : {"meshes", "materials", "accessors", "bufferViews", "buffers", "extensionsUsed"}) {

@@ -1,0 +1,22 @@
+// Balls from files that this program writes, or tables of any origin.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "medial_vk/ball.h"
+#include "medial_vk/result.h"
+
+namespace medial_vk {
+
+/// The balls of a table (CSV), whose first line names the columns, in any order: x, y, z and radius; of a table with
+/// several sets, where a column `level` numbers them, those of the last set. Other columns are left out, but `link`, of
+/// a robot, is refused. Numbers are finite and radii positive. Error: kInvalidMesh, with `name` and the line at fault.
+Result<std::vector<Ball>> parse_balls(std::string_view text, const std::string& name);
+
+/// A medial PLY has the balls of its points, a body file (.npz) those inside; any other name is that of a table; "-": a
+/// table on standard input. Errors: kInvalidMesh (the file cannot be read, or has no ball), kOutOfMemory.
+Result<std::vector<Ball>> read_balls(const std::string& path);
+
+}  // namespace medial_vk

@@ -1,0 +1,49 @@
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "output/motion_files/motion_files.h"
+#include "output/numpy_files/npz_writer.h"
+
+namespace medial_vk {
+namespace {
+
+/// One number per frame.
+template <class Of>
+void add_column(NpzWriter& out, const char* name, const MotionRecord& record, const Of& of) {
+  std::vector<double> values;
+  for (const FollowedFrame& frame : record.frames) values.push_back(of(frame));
+  out.numbers<double>(name, {values.size()}, values);
+}
+
+}  // namespace
+
+Result<std::string> encode_motion_npz(const MotionRecord& record) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const std::size_t frames = record.frames.size(), balls = record.frames.front().balls.size();
+  std::string numbers, states;
+  numbers.reserve(frames * balls * 4 * sizeof(double));
+  for (const FollowedFrame& frame : record.frames) {
+    for (const Ball& ball : frame.balls) {
+      for (const double x : ball.centre) append_little_endian(numbers, x);
+      append_little_endian(numbers, ball.radius);
+    }
+    for (const FollowState state : frame.states) states += static_cast<char>(state);
+  }
+  NpzWriter out;
+  out.add("balls", kNumpyType<double>, {frames, balls, 4}, numbers);
+  out.add("states", "|u1", {frames, balls}, states);
+  add_column(out, "time", record, [](const FollowedFrame& frame) { return frame.time; });
+  add_column(out, "solid_volume", record,
+             [&](const FollowedFrame& frame) { return record.has_volume ? frame.measures.solid_volume : kNone; });
+  add_column(out, "ball_volume", record, [](const FollowedFrame& frame) { return frame.measures.ball_volume; });
+  add_column(out, "outside_bound", record, [](const FollowedFrame& frame) { return frame.measures.outside_bound; });
+  add_column(out, "gap_lower", record, [](const FollowedFrame& frame) { return frame.gap ? frame.gap->lower : kNone; });
+  add_column(out, "gap_upper", record, [](const FollowedFrame& frame) { return frame.gap ? frame.gap->upper : kNone; });
+  out.number("frames_per_second", record.frames_per_second);
+  out.text("rule", record.rule);
+  out.text("version", record.version);
+  return out.finish();
+}
+
+}  // namespace medial_vk

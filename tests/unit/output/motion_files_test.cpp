@@ -1,0 +1,129 @@
+// Balls in motion as files: every number of the arrays and of the table, and an animation whose balls are inside the
+// given ones.
+#include "output/motion_files/motion_files.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "output/numpy_files/npz_reader.h"
+#include "unit/output/motion_example.h"
+#include "unit/output/parsed_glb.h"
+
+namespace medial_vk {
+namespace {
+
+using test::motion_example;
+
+std::vector<double> doubles_of(const NpyArray& array) {
+  EXPECT_EQ(array.type, "<f8");
+  std::vector<double> values(array.bytes.size() / sizeof(double));
+  std::memcpy(values.data(), array.bytes.data(), array.bytes.size());  // the tests run on little-endian machines only
+  return values;
+}
+
+TEST(MotionNpz, HoldsEveryBallOfEveryFrame) {
+  const MotionRecord record = motion_example();
+  const auto arrays = read_npz(encode_motion_npz(record).value(), "motion").value();
+  const NpyArray& balls = arrays.at("balls");
+  EXPECT_EQ(balls.shape, (std::vector<std::uint64_t>{3, 2, 4}));
+  const std::vector<double> numbers = doubles_of(balls);
+  std::size_t at = 0;
+  for (const FollowedFrame& frame : record.frames) {
+    for (const Ball& ball : frame.balls) {
+      for (const double x : ball.centre) EXPECT_EQ(numbers.at(at++), x);
+      EXPECT_EQ(numbers.at(at++), ball.radius);
+    }
+  }
+  EXPECT_EQ(arrays.at("states").type, "|u1");
+  EXPECT_EQ(arrays.at("states").shape, (std::vector<std::uint64_t>{3, 2}));
+  EXPECT_EQ(arrays.at("states").bytes, std::string("\0\0\0\1\2\3", 6));
+  EXPECT_EQ(doubles_of(arrays.at("time")), (std::vector<double>{0, 0.5, 1}));
+  EXPECT_EQ(doubles_of(arrays.at("solid_volume")), (std::vector<double>{8, 10, 16}));
+  EXPECT_EQ(doubles_of(arrays.at("ball_volume")), (std::vector<double>{6, 5, 0}));
+  EXPECT_EQ(doubles_of(arrays.at("outside_bound")), (std::vector<double>{0, 0.125, 0}));
+  EXPECT_EQ(doubles_of(arrays.at("frames_per_second")), std::vector<double>{2});
+  const std::vector<double> gaps = doubles_of(arrays.at("gap_upper"));
+  EXPECT_EQ(gaps[0], 0.75);
+  EXPECT_TRUE(std::isnan(gaps[2])) << "not measured";
+}
+
+TEST(MotionNpz, AnOpenMeshHasNoVolume) {
+  MotionRecord record = motion_example();
+  record.has_volume = false;
+  const auto arrays = read_npz(encode_motion_npz(record).value(), "motion").value();
+  for (const double volume : doubles_of(arrays.at("solid_volume"))) EXPECT_TRUE(std::isnan(volume));
+}
+
+const std::string kNames =
+    "frame,name,time,solid_volume,ball_volume,uncovered_percent,outside_bound,gap_lower,gap_upper,medial,flat,shrunk,"
+    "lost\n";
+
+TEST(MotionCsv, ALinePerFrame) {
+  EXPECT_EQ(encode_motion_csv(motion_example()), kNames +
+                                                     "0,rest,0,8,6,25,0,0.5,0.75,2,0,0,0\n"
+                                                     "1,a.obj,0.5,10,5,50,0.125,1,1.25,1,1,0,0\n"
+                                                     "2,\"the \"\"last\"\", bent.obj\",1,16,0,100,0,,,0,0,1,1\n");
+}
+
+TEST(MotionCsv, WithoutAVolumeItsPlacesAreEmpty) {
+  MotionRecord record = motion_example();
+  record.has_volume = false;
+  record.frames.resize(1);
+  EXPECT_EQ(encode_motion_csv(record), kNames + "0,rest,0,,6,,0,0.5,0.75,2,0,0,0\n");
+}
+
+TEST(MotionGlb, BallsLieInsideThoseOfTheFrames) {
+  const MotionRecord record = motion_example();
+  const test::Glb glb = test::parse_glb(encode_motion_glb(record).value());
+  const nlohmann::json& animation = glb.document["animations"][0];
+  ASSERT_EQ(glb.document["nodes"].size(), 3u) << "a root and two balls";
+  ASSERT_EQ(animation["channels"].size(), 4u);
+  const auto values = [&](std::size_t node, const char* path) {
+    for (const nlohmann::json& channel : animation["channels"]) {
+      if (channel["target"]["node"] != node || channel["target"]["path"] != path) continue;
+      const nlohmann::json& sampler = animation["samplers"][channel["sampler"].get<std::size_t>()];
+      EXPECT_EQ(sampler["interpolation"], "STEP") << "nothing is proved between frames";
+      EXPECT_EQ(glb.document["accessors"][sampler["input"].get<std::size_t>()]["count"], record.frames.size());
+      return test::vectors(glb, sampler["output"].get<std::size_t>());
+    }
+    ADD_FAILURE() << "no channel " << path << " of node " << node;
+    return std::vector<std::array<float, 3>>(record.frames.size());
+  };
+  const nlohmann::json& root = glb.document["nodes"][0]["translation"];
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto centres = values(i + 1, "translation"), sizes = values(i + 1, "scale");
+    for (std::size_t f = 0; f < record.frames.size(); ++f) {
+      const Ball& ball = record.frames[f].balls[i];
+      long double squared = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const long double off = root[k].get<long double>() + centres[f][k] - ball.centre[k];
+        squared += off * off;
+        EXPECT_EQ(sizes[f][k], sizes[f][0]);
+      }
+      if (ball.radius > 0) {
+        EXPECT_LE(std::sqrt(squared) + sizes[f][0], static_cast<long double>(ball.radius)) << f << " " << i;
+      }
+      EXPECT_GE(sizes[f][0], 0);
+      EXPECT_NEAR(sizes[f][0], ball.radius, 1e-6) << "floats near 1 are 2^-24 apart";
+    }
+  }
+}
+
+TEST(MotionGlb, TimesAscendAlsoWhereFloatsCoincide) {
+  MotionRecord record = motion_example();
+  record.frames[0].time = 1e8;
+  record.frames[1].time = 1e8 + 1e-3;
+  record.frames[2].time = 1e8 + 2e-3;
+  const test::Glb glb = test::parse_glb(encode_motion_glb(record).value());
+  const std::size_t input = glb.document["animations"][0]["samplers"][0]["input"];
+  const nlohmann::json& times = glb.document["accessors"][input];
+  EXPECT_EQ(times["min"][0], 1e8f);
+  EXPECT_EQ(times["max"][0], std::nextafter(std::nextafter(1e8f, 2e8f), 2e8f));
+}
+
+}  // namespace
+}  // namespace medial_vk
