@@ -9,6 +9,8 @@
 #include "cli/distance/run_distance.h"
 #include "cli/doctor/run_doctor.h"
 #include "cli/extract/run_extract.h"
+#include "cli/follow/run_follow.h"
+#include "cli/help/help_texts.h"
 #include "cli/options/options.h"
 #include "cli/spheres/run_spheres.h"
 #include "cli/terminal/interrupt.h"
@@ -47,6 +49,7 @@ Command command_of(const std::vector<std::string>& arguments) {
   if (arguments[0] == "spheres") return Command::kSpheres;
   if (arguments[0] == "distance") return Command::kDistance;
   if (arguments[0] == "clearance") return Command::kClearance;
+  if (arguments[0] == "follow") return Command::kFollow;
   return arguments[0] == "doctor" ? Command::kDoctor : Command::kExtract;
 }
 
@@ -54,6 +57,7 @@ Status parse_and_run(Command command, const std::vector<std::string>& arguments)
   if (command == Command::kSpheres) return run_spheres({arguments.begin() + 1, arguments.end()});
   if (command == Command::kDistance) return run_distance({arguments.begin() + 1, arguments.end()});
   if (command == Command::kClearance) return run_clearance({arguments.begin() + 1, arguments.end()});
+  if (command == Command::kFollow) return run_follow({arguments.begin() + 1, arguments.end()});
   if (command == Command::kDoctor) return run_doctor({arguments.begin() + 1, arguments.end()});
   const Result<Options> options = parse_options(arguments);
   if (!options) return options.error();

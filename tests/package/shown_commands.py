@@ -12,10 +12,12 @@ test, and so does an entry that no command matches. The exit code is 77 if there
 """
 import concurrent.futures
 import hashlib
+import json
 import pathlib
 import re
 import shlex
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -35,6 +37,7 @@ NOT_RUN = {
     r"medial-vk distance( A B)?$": "names the command; a run of it has two meshes",
     r"medial-vk clearance( ROBOT.urdf)?$": "names the command; a run of it has joints",
     r"medial-vk clearance robot.urdf --joints joints.csv --balls": "fits covers to all links, which takes minutes",
+    r"medial-vk follow( REST FRAME...)?$": "names the command; a run of it has meshes",
     r"medial-vk VERSION": "is not a command but a comment of the PLY",
     r"medial-vk out/torus.ply": "needs a mesh of 5,000,000 triangles",
     r"yes \| medial-vk": "reads 4 GiB",
@@ -69,7 +72,7 @@ def shown(source, programs):
     """All commands, as pairs of document and command."""
     documents = [source / "README.md", *sorted((source / "docs").glob("*.md"))]
     found = [(d.name, command) for d in documents for command in commands_of_markdown(d.read_text())]
-    for words in ([], ["spheres"], ["distance"], ["clearance"], ["doctor"]):
+    for words in ([], ["spheres"], ["distance"], ["clearance"], ["follow"], ["doctor"]):
         text = subprocess.run([programs["medial-vk"], *words, "--help"], check=True, capture_output=True, text=True).stdout
         found += [(" ".join([*words, "--help"]), command) for command in commands_of_help(text)]
     for page in sorted((source / "docs").glob("*.1")):
@@ -90,6 +93,8 @@ def outputs_of(words):
              if a in ("-o", "--output", "--html", "--picture", "--report", "--histogram", "--write-srdf")]
     if arguments[:1] in (["distance"], ["clearance"]):
         return files
+    if arguments[:1] == ["follow"]:
+        return files if {"-o", "--output"} & set(arguments) else [*files, pathlib.Path(arguments[1]).stem + ".follow.npz"]
     meshes = [a for a in arguments if re.search(r"\.(obj|stl|ply)$", a) and a not in files]
     if arguments[:1] == ["spheres"]:
         robots = [a for a in arguments if a.endswith(".urdf") and a not in files]
@@ -156,18 +161,54 @@ class Folder:
             shutil.copy(self.path / "robot_arm/arm.urdf", self.path / name)
 
     def write_part(self):
-        """An STL: the coarsest turtle."""
+        """An STL: the coarsest turtle; and part.obj bent and twisted, as the frames of a motion."""
         self.call(["make_model", "part.obj", "52"])
-        corners, lines = [], ["solid part"]
+        for name, lift in (("bent.obj", lambda x, z: x * x / 4), ("twisted.obj", lambda x, z: x * z / 4)):
+            self.write_moved("part.obj", name, lift)
+        for frame in range(3):
+            self.write_moved("part.obj", f"walk_{frame:04d}.obj", lambda x, z: frame * x * x / 8)
+        corners, triangles, lines = [], [], ["solid part"]
         for kind, *rest in (line.split() for line in (self.path / "part.obj").read_text().splitlines() if line):
             if kind == "v":
                 corners.append(" ".join(rest))
             elif kind == "f":
-                triangle = [corners[int(word.split("/")[0]) - 1] for word in rest]
+                triangles += [int(word.split("/")[0]) - 1 for word in rest]
+                triangle = [corners[i] for i in triangles[-3:]]
                 lines += ["facet normal 0 0 0", "outer loop", *(f"vertex {c}" for c in triangle), "endloop", "endfacet"]
+        self.write_dancer(corners, triangles)
         text = "\n".join(lines + ["endsolid part", ""])
         for name in ("part.stl", "path/part.stl"):
             (self.path / name).write_text(text)
+
+    def write_dancer(self, corners, triangles):
+        """A glTF of the part, which turns by a quarter about x in a second, as an animation of its node."""
+        data = struct.pack(f"<{3 * len(corners)}f", *(float(x) for corner in corners for x in corner.split()))
+        data += struct.pack(f"<{len(triangles)}I", *triangles) + struct.pack("<10f", 0, 1, 0, 0, 0, 1, 0.5**0.5, 0, 0, 0.5**0.5)
+        counts = [len(corners), len(triangles), 2, 2]
+        sizes = [12 * len(corners), 4 * len(triangles), 8, 32]
+        document = {
+            "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+            "animations": [{"channels": [{"sampler": 0, "target": {"node": 0, "path": "rotation"}}],
+                            "samplers": [{"input": 2, "output": 3}]}],
+            "accessors": [{"bufferView": i, "count": counts[i], "componentType": 5125 if i == 1 else 5126,
+                           "type": ("VEC3", "SCALAR", "SCALAR", "VEC4")[i]} for i in range(4)],
+            "bufferViews": [{"buffer": 0, "byteOffset": sum(sizes[:i]), "byteLength": sizes[i]} for i in range(4)],
+            "buffers": [{"byteLength": len(data)}]}
+        text = json.dumps(document).encode()
+        text += b" " * (-len(text) % 4)
+        chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(data), b"BIN\0") + data
+        (self.path / "dancer.glb").write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks)
+
+    def write_moved(self, source, name, lift):
+        """The same triangles, with vertices lifted by a function of the other two coordinates."""
+        lines = []
+        for line in (self.path / source).read_text().splitlines():
+            if line.startswith("v "):
+                x, y, z = map(float, line.split()[1:4])
+                line = f"v {x!r} {y + lift(x, z)!r} {z!r}"
+            lines.append(line)
+        (self.path / name).write_text("\n".join(lines) + "\n")
 
     def call(self, words):
         words = [self.programs.get(words[0], words[0]), *words[1:]]

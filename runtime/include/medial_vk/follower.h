@@ -33,6 +33,8 @@ struct FollowerOptions {
   /// A ball whose object angle, in radians, is below this counts as no longer medial.
   double object_angle = 0.5;
   unsigned threads = 0;  ///< Of the host, 0: one per core. The result does not depend on it.
+
+  bool operator==(const FollowerOptions&) const = default;
 };
 
 enum class FollowState : std::uint8_t {

@@ -73,7 +73,4 @@ std::vector<NamedOutput> outputs_of(const ClearanceOptions& options);
 /// Every file to be read that the command line names.
 std::vector<std::string> inputs_of(const ClearanceOptions& options);
 
-/// The output of `medial-vk clearance --help`.
-std::string clearance_help_text();
-
 }  // namespace medial_vk::cli

@@ -30,6 +30,11 @@ class Declarations {
     app_.add_option(name, target)->type_name(value);
   }
 
+  /// Any number of values.
+  void texts(const char* name, const char* values, std::vector<std::string>& targets) {
+    app_.add_option(name, targets)->type_name(values);
+  }
+
   void flag(const char* name, bool& target) { app_.add_flag(name, target); }
 
   template <class T>

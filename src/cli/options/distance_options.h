@@ -61,7 +61,4 @@ class DistanceOptionParser {
 /// Every file to be written, with its option.
 std::vector<NamedOutput> outputs_of(const DistanceCommandOptions& options);
 
-/// The output of `medial-vk distance --help`.
-std::string distance_help_text();
-
 }  // namespace medial_vk::cli

@@ -39,7 +39,4 @@ class DoctorOptionParser {
   std::unique_ptr<Declared> declared_;
 };
 
-/// The output of `medial-vk doctor --help`.
-std::string doctor_help_text();
-
 }  // namespace medial_vk::cli

@@ -84,7 +84,4 @@ std::vector<NamedOutput> outputs_of(const Options& options);
 /// The options for one mesh of several: the same, with `name` in the name of every file.
 Options options_of_part(const Options& options, const std::string& name);
 
-/// The output of --help.
-std::string help_text();
-
 }  // namespace medial_vk::cli

@@ -73,7 +73,4 @@ std::vector<NamedOutput> outputs_of(const SpheresOptions& options);
 /// The options for one mesh of several: the same, with `name` in the name of every file.
 SpheresOptions options_of_part(const SpheresOptions& options, const std::string& name);
 
-/// The output of `medial-vk spheres --help`.
-std::string spheres_help_text();
-
 }  // namespace medial_vk::cli

@@ -17,11 +17,17 @@ constexpr ParameterWords same(std::string_view parameter, std::string_view words
 /// Of calls that the tool does not make, or not with values that can be at fault.
 constexpr ParameterWords library_only(std::string_view parameter) { return same(parameter, {}); }
 
+/// Of Follower, which only one command makes.
+constexpr ParameterWords of_follow(std::string_view parameter, std::string_view words) {
+  return {parameter, {}, {}, {}, {}, {}, {}, words};
+}
+
 constexpr std::string_view kRobotCount = "--count-per-link or --total";
 constexpr ParameterWords kParameterWords[] = {
     {"amplitude", "--perturb", {}, {}},
     {"angle", "--sheet-angle", {}, {}},
     library_only("ball"),
+    library_only("balls"),
     library_only("balls_only"),
     library_only("bodies"),
     library_only("body"),
@@ -29,17 +35,19 @@ constexpr ParameterWords kParameterWords[] = {
     library_only("capacity"),
     library_only("clearance"),
     {"contract", {}, "--contract", "--contract"},
-    {"count", {}, "--count", kRobotCount},
+    {"count", {}, "--count", kRobotCount, {}, {}, {}, "--count"},
     {"count_per_link", {}, {}, "--count-per-link", {}, {}, "--balls"},
     library_only("cover"),
     {"crease", "--sheet-crease", {}, {}},
     same("deep_angle", "the deep angle"),
-    {"device", "--device", "--device", "--device", "--device", {}, "--device"},
+    library_only("depths"),
+    {"device", "--device", "--device", "--device", "--device", {}, "--device", "--device"},
     library_only("directions"),
     {"epsilon", "--epsilon", "epsilon", "epsilon"},
     {"error", {}, "--error", "--error"},
     library_only("exact"),
     {"extra_levels", "--extra-levels", "the number of extra levels", "the number of extra levels"},
+    library_only("for_distances"),
     library_only("frames"),
     library_only("group_size"),
     library_only("growth"),
@@ -50,29 +58,44 @@ constexpr ParameterWords kParameterWords[] = {
     library_only("links"),
     {"max_gap", {}, "--max-gap", "--max-gap"},
     {"medial_mesh", "--medial-mesh", {}, {}},
-    {"memory_budget", "--memory", "the memory budget", "the memory budget", "the memory budget"},
+    {"memory_budget",
+     "--memory",
+     "the memory budget",
+     "the memory budget",
+     "the memory budget",
+     {},
+     {},
+     "the memory budget"},
     library_only("mesh"),
     {"method", {}, "--method", "--method"},
     {"mode", "--mode", {}, {}},
     library_only("nearest"),
-    same("object_angle", "--object-angle"),
+    {"object_angle", "--object-angle", "--object-angle", "--object-angle", {}, {}, {}, "--object-angle"},
     library_only("object_angles"),
     library_only("out"),
     library_only("pairs"),
     library_only("parts"),
+    library_only("points"),
     library_only("pose"),
     library_only("poses"),
-    library_only("protrusion"),
+    of_follow("protrusion", "--protrusion"),
     library_only("query_error"),
     {"radius", "--radius", "the radius threshold", "the radius threshold"},
     library_only("removal_orders"),
-    {"resolution", "--resolution", "--resolution", "--resolution", "the resolution", {}, "--resolution"},
+    {"resolution",
+     "--resolution",
+     "--resolution",
+     "--resolution",
+     "the resolution",
+     {},
+     "--resolution",
+     "--resolution"},
     library_only("rotation"),
     library_only("samples"),
     library_only("sheets"),
-    library_only("shrunk"),
+    of_follow("shrunk", "--shrunk"),
     library_only("sphere"),
-    same("threads", "--threads"),
+    {"threads", "--threads", "--threads", "--threads", {}, {}, {}, "--threads"},
     {"tolerance", {}, {}, {}, {}, "--tolerance"},
     {"total", {}, {}, "--total"},
     library_only("validation"),
@@ -94,6 +117,8 @@ std::string_view words_of(const ParameterWords& parameter, Command command) {
       return parameter.distance;
     case Command::kClearance:
       return parameter.clearance.empty() ? parameter.distance : parameter.clearance;
+    case Command::kFollow:
+      return parameter.follow;
     case Command::kDoctor:
       return parameter.doctor;
   }
@@ -111,6 +136,8 @@ const char* name_of(Command command) {
       return "medial-vk distance";
     case Command::kClearance:
       return "medial-vk clearance";
+    case Command::kFollow:
+      return "medial-vk follow";
     case Command::kDoctor:
       return "medial-vk doctor";
   }

@@ -20,6 +20,7 @@ enum class Command {
   kRobotSpheres,  ///< medial-vk spheres, of a robot
   kDistance,      ///< medial-vk distance
   kClearance,     ///< medial-vk clearance
+  kFollow,        ///< medial-vk follow
   kDoctor,        ///< medial-vk doctor
 };
 
@@ -31,6 +32,7 @@ struct ParameterWords {
   std::string_view doctor = {};     ///< Of few: its small extraction has options that cannot be at fault.
   std::string_view distance = {};   ///< Of few.
   std::string_view clearance = {};  ///< Of few; empty: that of distance.
+  std::string_view follow = {};     ///< Of few.
 };
 
 /// Every parameter that messages of the library name.

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "cli/help/help_texts.h"
 #include "cli/options/distance_options.h"
 #include "unit/cli/parse_results.h"
 

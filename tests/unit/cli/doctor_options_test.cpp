@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cli/help/help_texts.h"
 #include "cli/options/doctor_options.h"
 #include "unit/cli/parse_results.h"
 

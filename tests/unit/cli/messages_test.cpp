@@ -1,5 +1,6 @@
 // The messages and exit codes of the command line for errors of the library.
 #include "cli/terminal/messages.h"
+#include "cli/help/help_texts.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -158,6 +159,7 @@ TEST(Messages, WordsNameOptionsOfTheirCommand) {
   const std::set<std::string> of_doctor = options_in(doctor_help_text());
   const std::set<std::string> of_distance = options_in(distance_help_text());
   const std::set<std::string> of_clearance = options_in(clearance_help_text());
+  const std::set<std::string> of_follow = options_in(follow_help_text());
   for (const ParameterWords& parameter : parameter_words()) {
     EXPECT_THAT(of_extract, testing::IsSupersetOf(options_in(std::string(parameter.extract))));
     EXPECT_THAT(of_spheres, testing::IsSupersetOf(options_in(std::string(parameter.spheres))));
@@ -165,6 +167,7 @@ TEST(Messages, WordsNameOptionsOfTheirCommand) {
     EXPECT_THAT(of_doctor, testing::IsSupersetOf(options_in(std::string(parameter.doctor))));
     EXPECT_THAT(of_distance, testing::IsSupersetOf(options_in(std::string(parameter.distance))));
     EXPECT_THAT(of_clearance, testing::IsSupersetOf(options_in(std::string(parameter.distance))));
+    EXPECT_THAT(of_follow, testing::IsSupersetOf(options_in(std::string(parameter.follow))));
     EXPECT_THAT(of_clearance, testing::IsSupersetOf(options_in(std::string(parameter.clearance))));
   }
 }

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "cli/help/help_texts.h"
 #include "cli/options/options.h"
 #include "cli/options/parse_number.h"
 #include "cli/terminal/numbers.h"

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/help/help_texts.h"
 #include "cli/options/spheres_options.h"
 #include "unit/cli/parse_results.h"
 

@@ -1,0 +1,62 @@
+#include "cli/follow/follow_rig.h"
+
+#include <cstddef>
+#include <utility>
+
+#include "cli/terminal/interrupt.h"
+#include "cli/terminal/messages.h"
+#include "medial_vk/sphere_proofs.h"
+
+namespace medial_vk::cli {
+namespace {
+
+/// Limits the radii in a frame. A mirrored frame has a mesh of its own, turned inside out.
+Status prove_frame(const RiggedFrame& frame, const std::vector<Point>& vertices, unsigned threads, IndexedMesh& mesh,
+                   BallRig& balls) {
+  const std::vector<Point> centres = posed_centres(balls, frame.joints);
+  std::vector<double> depths(centres.size());
+  if (is_mirrored(mesh.prepared(), vertices)) {
+    const Result<IndexedMesh> turned = IndexedMesh::build(moved(mesh.prepared(), vertices), {.threads = threads});
+    if (!turned) return turned.error();
+    if (Status status = measure_depths(turned.value(), centres, depths, {threads}); !status) return status;
+  } else {
+    if (Status status = mesh.move_vertices(vertices, {.flags = {}, .threads = threads}); !status) return status;
+    if (Status status = measure_depths(mesh, centres, depths, {threads}); !status) return status;
+  }
+  limit_radii(depths, balls);
+  return {};
+}
+
+}  // namespace
+
+std::vector<AffineMap> joints_at_rest(const MotionRig& rig) {
+  std::vector<AffineMap> joints;
+  for (const RigJoint& joint : rig.joints) joints.push_back(joint.rest);
+  return joints;
+}
+
+Result<BallRig> rig_balls(const MeshMotion& motion, const std::vector<RiggedFrame>& frames, VertexMap& map,
+                          IndexedMesh& mesh, unsigned threads, const std::function<void(double)>& seen) {
+  const MotionRig& rig = *motion.rig();
+  const auto goes_on = [&](double done) {
+    seen(0.5 * done);
+    return !interrupted();
+  };
+  BallRig balls = bind_balls(rig, motion.rest().vertices, frames, goes_on);
+  std::vector<Point> vertices;
+  MotionFrame frame;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (interrupted()) return stopped();
+    seen(0.5 + 0.5 * static_cast<double>(i) / static_cast<double>(frames.size()));
+    if (i == 0) {
+      map.map(motion.rest().vertices, vertices);
+    } else {
+      if (Status status = motion.read_frame(i - 1, frame); !status) return status.error();
+      map.map(frame.positions, vertices);
+    }
+    if (Status status = prove_frame(frames[i], vertices, threads, mesh, balls); !status) return status.error();
+  }
+  return balls;
+}
+
+}  // namespace medial_vk::cli

@@ -1,0 +1,132 @@
+#include "cli/follow/follow_summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/quoted.h"
+#include "cli/terminal/numbers.h"
+#include "cli/terminal/tables.h"
+
+namespace medial_vk::cli {
+namespace {
+
+std::string rule_text(const FollowOptions& options) {
+  std::string text = options.follower.rule == FollowRule::kPublished
+                         ? "published: one contact, balls may reach out"
+                         : fmt::format("tangent: two contacts, inside in every frame; {} {} towards more volume",
+                                       options.follower.steps, options.follower.steps == 1 ? "step" : "steps");
+  return options.from_rest ? text + "; each frame from rest" : text;
+}
+
+/// At rest, on average and at most, as per cent of the solid; frames without a volume are left out.
+std::string uncovered_text(const MotionRecord& record) {
+  double sum = 0, most = 0;
+  std::size_t count = 0;
+  const FollowedFrame* worst = nullptr;
+  for (const FollowedFrame& frame : record.frames) {
+    const double percent = frame.uncovered_percent();
+    if (!std::isfinite(percent)) continue;
+    ++count;
+    sum += percent;
+    if (worst != nullptr && percent <= most) continue;
+    worst = &frame;
+    most = percent;
+  }
+  if (worst == nullptr) return "no frame has a volume";
+  std::string text = fmt::format("{:.2f} % of the solid on average, {:.2f} % at most ({})",
+                                 sum / static_cast<double>(count), most, quoted(worst->name));
+  const double rest = record.frames.front().uncovered_percent();
+  if (std::isfinite(rest)) text = fmt::format("{:.2f} % at rest, {}", rest, text);
+  const std::size_t without = record.frames.size() - count;
+  return without == 0 ? text : fmt::format("{}; {} frames have no volume", text, grouped(without));
+}
+
+std::string states_text(const FollowedFrame& frame) {
+  std::string text;
+  for (const FollowState state : {FollowState::kMedial, FollowState::kFlat, FollowState::kShrunk, FollowState::kLost}) {
+    const auto count = std::ranges::count(frame.states, state);
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(count), name_of(state));
+  }
+  return text + " in the last frame";
+}
+
+/// An upper bound of the balls' volume outside, over that of the solid, in the worst frame.
+std::string outside_text(const MotionRecord& record) {
+  double worst = 0;
+  for (const FollowedFrame& frame : record.frames) {
+    if (frame.measures.solid_volume > 0) {
+      worst = std::max(worst, frame.measures.outside_bound / frame.measures.solid_volume);
+    }
+  }
+  return fmt::format("at most {:.2f} % of the solid, in any frame", 100 * worst);
+}
+
+/// How many balls joints alone keep inside, and what they would miss with their radii at rest.
+std::string rig_text(const BallRig& rig) {
+  const auto inside = std::ranges::count_if(rig.balls, [](const RigBall& ball) { return ball.radius > 0; });
+  double share = 0;
+  for (const RigBall& ball : rig.balls) share += ball.rest_radius > 0 ? ball.radius / ball.rest_radius : 0;
+  return fmt::format(
+      "{} of {} balls inside in every frame, with {:.0f} % of their radii on average; with all of it they "
+      "reach out by {:.3g} at most",
+      grouped(inside), grouped(rig.balls.size()), 100 * share / static_cast<double>(rig.balls.size()),
+      rig.greatest_reach_out());
+}
+
+}  // namespace
+
+bool encloses_volume(const MeshReport& report) {
+  return report.closed && report.intersecting_faces == 0 && report.intersections_known && report.faces_within == 0 &&
+         report.faces_without == 0;
+}
+
+std::string follow_opening(const FollowOptions& options, const MeshReport& report, std::uint64_t frames,
+                           std::uint64_t separable) {
+  std::string text = fmt::format("{}: {} triangles, {}; {} {}\n", options.rest == "-" ? "standard input" : options.rest,
+                                 grouped(report.triangles), report.closed ? "closed" : "not closed", grouped(frames),
+                                 frames == 1 ? "frame" : "frames");
+  if (report.closed && !encloses_volume(report)) {
+    text += labelled(
+        "note", "faces cross or lie inside the solid: parts that overlap would count twice, so no volume is known");
+  }
+  if (separable > 0) {
+    text +=
+        labelled("note", fmt::format("{} vertices stand for several of the file that may part; each moves as the first",
+                                     grouped(separable)));
+  }
+  if (!options.verbose) return text;
+  for (const std::string& assumption : report.assumptions) text += labelled("note", assumption);
+  return text;
+}
+
+std::string follow_summary(const FollowOptions& options, const MotionRecord& record, const BallRig& rig,
+                           const PartedVertices& parted, double update_seconds, const std::vector<StageTime>& times,
+                           std::span<const OutputFile> files) {
+  std::string text = labelled("balls", grouped(record.frames.front().balls.size()));
+  text += labelled("rule", rule_text(options));
+  if (record.has_volume) text += labelled("uncovered", uncovered_text(record));
+  if (options.follower.rule == FollowRule::kPublished && record.has_volume) {
+    text += labelled("outside", outside_text(record));
+  }
+  text += labelled("states", states_text(record.frames.back()));
+  if (!rig.balls.empty()) text += labelled("rig", rig_text(rig));
+  const auto lost = std::ranges::count(record.frames.front().states, FollowState::kLost);
+  if (lost > 0) {
+    text += labelled("note", fmt::format("{} balls are not known to be inside the open mesh at rest", grouped(lost)));
+  }
+  if (parted.count > 0) {
+    text += labelled("note", fmt::format("{} vertices of the file are at the place of another one at rest, and up to "
+                                         "{:.3g} apart in a frame; each moves as the first at its place",
+                                         grouped(parted.count), parted.distance));
+  }
+  const std::size_t moved = record.frames.size() - 1;
+  if (moved > 0) {
+    text += labelled("each", fmt::format("{:.3g} ms a frame", 1e3 * update_seconds / static_cast<double>(moved)));
+  }
+  text += labelled("time", times_text(times, options.verbose));
+  return text + written_text(files, false);
+}
+
+}  // namespace medial_vk::cli

@@ -1,0 +1,30 @@
+// The messages of `medial-vk follow`.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cli/follow/rest_mesh.h"
+#include "cli/options/follow_options.h"
+#include "medial_vk/measurements.h"
+#include "output/atomic_files/atomic_file.h"
+#include "output/motion_files/motion_record.h"
+#include "rigs/ball_rig.h"
+
+namespace medial_vk::cli {
+
+/// Whether the signed volume of a mesh is the volume of its solid: it is closed, and no faces cross or lie inside.
+bool encloses_volume(const MeshReport& report);
+
+/// Before the work: the mesh and its frames. `separable`: vertices of an animation that stand for several of the file.
+std::string follow_opening(const FollowOptions& options, const MeshReport& report, std::uint64_t frames,
+                           std::uint64_t separable);
+
+/// After it. `rig` has no balls unless one was made; `update_seconds` is the time of Follower::update() in all frames.
+std::string follow_summary(const FollowOptions& options, const MotionRecord& record, const BallRig& rig,
+                           const PartedVertices& parted, double update_seconds, const std::vector<StageTime>& times,
+                           std::span<const OutputFile> files);
+
+}  // namespace medial_vk::cli

@@ -1,0 +1,42 @@
+// The mesh at rest, prepared without new vertices, and the vertices of frames in its order.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "medial_vk/mesh.h"
+
+namespace medial_vk::cli {
+
+/// Vertices of the file that are one vertex of the prepared mesh, but are apart in a frame.
+struct PartedVertices {
+  std::uint64_t count = 0;  ///< In the frame that has most of them.
+  double distance = 0;      ///< The greatest, in mesh units.
+};
+
+/// From vertices of the file to vertices of the prepared mesh. Each of these moves as the first of those that it stands
+/// for.
+class VertexMap {
+ public:
+  /// The mesh was prepared with `keep_inner_faces`, so that each of its vertices is one of the file.
+  explicit VertexMap(const PreparedMesh& mesh);
+
+  /// The vertices of the prepared mesh, of the positions of a frame.
+  void map(std::span<const Point> positions, std::vector<Point>& vertices);
+  const PartedVertices& parted() const { return parted_; }
+
+ private:
+  std::vector<std::uint32_t> vertex_of_input_, first_input_;
+  PartedVertices parted_;
+};
+
+/// Whether the signed volume of a closed mesh is negative in a frame.
+bool is_mirrored(const PreparedMesh& rest, std::span<const Point> vertices);
+
+/// The mesh of a frame, for checks. A mirrored frame (its signed volume is negative, and it is closed) is turned inside
+/// out, so that its inside has positive winding numbers.
+PreparedMesh moved(const PreparedMesh& rest, std::span<const Point> vertices);
+
+}  // namespace medial_vk::cli

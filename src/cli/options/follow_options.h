@@ -1,0 +1,78 @@
+// The command line of `medial-vk follow` as a struct. Names and exit codes are a contract with scripts
+// (docs/command-line.md).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/options/output_names.h"
+#include "cli/options/parse_picture.h"
+#include "common/backend.h"
+#include "medial_vk/follower.h"
+#include "medial_vk/result.h"
+#include "output/picture/panels/options.h"
+
+namespace medial_vk::cli {
+
+/// Steps towards more volume in each frame, unless the command line has another number.
+constexpr std::uint32_t kUsualFollowSteps = 1;
+
+struct FollowOptions {
+  bool help = false;
+  std::string rest;                 ///< The mesh in the rest pose, or a scene with an animation.
+  std::vector<std::string> frames;  ///< Meshes, or one pattern of names; empty: the animation of `rest`.
+  std::string animation;            ///< Its name, or its number from 1; empty: the only one.
+  double frames_per_second = 30;
+
+  std::string balls;             ///< A file with the balls; empty: they are fitted.
+  std::size_t count = 500;       ///< Of balls to fit.
+  bool points = false;           ///< All medial points instead.
+  std::uint32_t resolution = 0;  ///< Voxels along the longest side; 0: by the number of balls.
+  Backend backend = Backend::kVulkan;
+  std::string device;
+
+  FollowerOptions follower;  ///< `threads` is the number for the whole run.
+  bool from_rest = false;    ///< Each frame is computed from the rest pose alone.
+
+  std::vector<std::string> outputs;  ///< .npz, .glb or .csv; never empty after parsing; "-": standard output, CSV.
+  std::string picture, html, rig;    ///< Empty: none; "-": standard output.
+  PictureView view;
+
+  bool check = false;
+  bool quiet = false;
+  bool verbose = false;
+
+  bool operator==(const FollowOptions&) const = default;
+};
+
+/// `arguments` without the program's name and without "follow". Errors: kUsage with a message that names the option.
+Result<FollowOptions> parse_follow_options(const std::vector<std::string>& arguments);
+
+/// Parses many command lines, as OptionParser does.
+class FollowOptionParser {
+ public:
+  FollowOptionParser();
+  ~FollowOptionParser();
+  FollowOptionParser(const FollowOptionParser&) = delete;
+  FollowOptionParser& operator=(const FollowOptionParser&) = delete;
+
+  Result<FollowOptions> parse(const std::vector<std::string>& arguments);
+
+ private:
+  struct Declared;  // keeps CLI11 out of this header
+  std::unique_ptr<Declared> declared_;
+};
+
+/// Every file to be written, with its option.
+std::vector<NamedOutput> outputs_of(const FollowOptions& options);
+
+/// Every file to be read that the command line names.
+std::vector<std::string> inputs_of(const FollowOptions& options);
+
+/// Whether a file with a line per frame is written, for which the gap of each frame is measured.
+bool writes_table(const FollowOptions& options);
+
+}  // namespace medial_vk::cli

@@ -1,0 +1,246 @@
+// `medial-vk follow` from outside: files, messages, exit codes. Balls come from a table, so that no device is needed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/solids/mesh_files.h"
+#include "support/solids/solids.h"
+#include "tool_test.h"
+#include "unit/motion_files/animations.h"
+
+namespace medial_vk {
+namespace {
+
+using test::read_file;
+using test::ToolResult;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+constexpr const char* kFrameColumns = "frame,name,time,solid_volume,ball_volume,uncovered_percent";
+
+/// The words of the line of a frame.
+std::vector<std::string> frame_line(const std::string& table, std::size_t frame) {
+  std::istringstream text(table);
+  std::string line;
+  for (std::size_t i = 0; i <= frame + 1; ++i) std::getline(text, line);
+  std::istringstream in(line);
+  std::vector<std::string> words;
+  for (std::string word; std::getline(in, word, ',');) words.push_back(word);
+  return words;
+}
+
+/// A box of sides 2, 1 and 1 at rest, and frames that stretch it to 3 and 4.
+class FollowCommand : public test::ToolTest {
+ protected:
+  FollowCommand() {
+    for (int i = 0; i <= 2; ++i) {
+      const Mesh box = test::make_box({2.0 + i, 1, 1});
+      test::write_file(path("box_" + std::to_string(i) + ".obj"), test::to_obj(box));
+    }
+    test::write_file(path("balls.csv"), "x,y,z,radius\n0.5,0.5,0.5,0.5\n1.5,0.5,0.5,0.5\n1,0.5,0.5,0.25\n");
+  }
+
+  ToolResult follow(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "follow");
+    return run(std::move(arguments));
+  }
+  ToolResult follow_box(std::vector<std::string> more) const {
+    std::vector<std::string> arguments = {"box_0.obj", "box_1.obj", "box_2.obj", "--balls", "balls.csv"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return follow(std::move(arguments));
+  }
+};
+
+TEST_F(FollowCommand, WritesEveryFormat) {
+  const ToolResult result = follow_box({"-o", "a.npz", "-o", "a.glb", "-o", "a.csv", "--picture", "a.png", "--check"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("box_0.obj: 12 triangles, closed; 2 frames"));
+  EXPECT_THAT(result.err, HasSubstr("3 medial"));
+  EXPECT_THAT(result.out, HasSubstr("radius <= exact distance"));
+  EXPECT_THAT(folder_.names(),
+              ElementsAre("a.csv", "a.glb", "a.npz", "a.png", "balls.csv", "box_0.obj", "box_1.obj", "box_2.obj"));
+  const std::string table = read_file(path("a.csv"));
+  EXPECT_THAT(table, StartsWith(kFrameColumns));
+  const std::vector<std::string> rest = frame_line(table, 0), last = frame_line(table, 2);
+  EXPECT_EQ(rest[1], "rest");
+  EXPECT_EQ(last[1], "box_2.obj");
+  EXPECT_NEAR(std::stod(rest[3]), 2, 1e-12);
+  EXPECT_NEAR(std::stod(last[3]), 4, 1e-12);
+  EXPECT_THAT(read_file(path("a.npz")), StartsWith("PK"));
+  EXPECT_THAT(read_file(path("a.glb")), StartsWith("glTF"));
+  EXPECT_THAT(read_file(path("a.png")), StartsWith("\x89PNG"));
+}
+
+TEST_F(FollowCommand, WithoutAnOutputTheArraysAreWrittenHere) {
+  const ToolResult result = follow_box({"-q"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, IsEmpty());
+  EXPECT_THAT(read_file(path("box_0.follow.npz")), StartsWith("PK"));
+}
+
+TEST_F(FollowCommand, PatternsStandForTheirFilesInOrder) {
+  const ToolResult by_name = follow_box({"-o", "-", "-q"});
+  ASSERT_EQ(by_name.exit_code, 0) << by_name.err;
+  for (const char* pattern : {"box_%d.obj", "box_#.obj", "box_*.obj"}) {
+    const ToolResult result = follow({"box_0.obj", pattern, "--balls", "balls.csv", "-o", "-", "-q"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(frame_line(result.out, 1)[1], "box_0.obj") << "the pattern also stands for the rest pose";
+    EXPECT_EQ(frame_line(result.out, 3)[3], frame_line(by_name.out, 2)[3]);
+  }
+}
+
+TEST_F(FollowCommand, TheSameRunGivesTheSameBytes) {
+  const ToolResult once = follow_box({"-o", "-", "-q", "--threads", "1"}), again = follow_box({"-o", "-", "-q"});
+  EXPECT_EQ(once.exit_code, 0) << once.err;
+  EXPECT_EQ(once.out, again.out);
+}
+
+TEST_F(FollowCommand, FromRestAFrameDoesNotDependOnThoseBefore) {
+  const ToolResult both = follow_box({"-o", "-", "-q", "--from-rest"});
+  const ToolResult last = follow({"box_0.obj", "box_2.obj", "--balls", "balls.csv", "-o", "-", "-q", "--from-rest"});
+  ASSERT_EQ(both.exit_code, 0) << both.err;
+  EXPECT_EQ(frame_line(both.out, 2)[4], frame_line(last.out, 1)[4]) << "the volume of the balls";
+}
+
+TEST_F(FollowCommand, ThePublishedRuleReportsWhatMayBeOutside) {
+  const ToolResult result = follow_box({"-o", "a.npz", "--rule", "published"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("outside   at most"));
+}
+
+TEST_F(FollowCommand, FramesThatDifferAreNamed) {
+  test::write_file(path("other.obj"), test::to_obj(test::make_sphere(1, 100)));
+  const ToolResult other = follow({"box_0.obj", "other.obj", "--balls", "balls.csv"});
+  EXPECT_EQ(other.exit_code, 3);
+  EXPECT_THAT(other.err, HasSubstr("other.obj: "));
+  EXPECT_THAT(other.err, HasSubstr("where box_0.obj has"));
+  const ToolResult missing = follow({"box_0.obj", "no.obj", "--balls", "balls.csv"});
+  EXPECT_EQ(missing.exit_code, 3);
+  EXPECT_THAT(missing.err, HasSubstr("no.obj"));
+  const ToolResult still = follow({"box_0.obj", "--balls", "balls.csv"});
+  EXPECT_EQ(still.exit_code, 3);
+  EXPECT_THAT(still.err, HasSubstr("it has no animation"));
+  EXPECT_THAT(folder_.names(), testing::Not(testing::Contains("box_0.follow.npz"))) << "nothing is written";
+}
+
+TEST_F(FollowCommand, BallsThatAreNotInsideAreRefused) {
+  test::write_file(path("large.csv"), "x,y,z,radius\n0.5,0.5,0.5,0.75\n");
+  const ToolResult large = follow({"box_0.obj", "box_1.obj", "--balls", "large.csv"});
+  EXPECT_EQ(large.exit_code, 2);
+  EXPECT_THAT(large.err, HasSubstr("--balls large.csv: ball 0 is not inside the mesh"));
+  const ToolResult none = follow({"box_0.obj", "box_1.obj", "--balls", "box_2.obj"});
+  EXPECT_EQ(none.exit_code, 3);
+  EXPECT_THAT(none.err, HasSubstr("box_2.obj:1: the first line must name the columns"));
+}
+
+TEST_F(FollowCommand, NoFrameIsOverwritten) {
+  const ToolResult result =
+      follow({"box_0.obj", "box_*.obj", "--balls", "balls.csv", "-o", "a.npz", "--html", "box_2.html"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  test::write_file(path("f_1.glb"), test::skinned_animation().glb());
+  test::write_file(path("f_2.glb"), test::skinned_animation().glb());
+  const ToolResult over = follow({"f_1.glb", "f_*.glb", "--balls", "balls.csv", "-o", "f_2.glb"});
+  EXPECT_EQ(over.exit_code, 2);
+  EXPECT_THAT(over.err, HasSubstr("--output would overwrite the input f_2.glb"));
+}
+
+TEST_F(FollowCommand, CrossingFacesHaveNoVolume) {
+  Mesh both = test::make_box({2, 1, 1}), second = test::make_box({1, 0.5, 0.5});
+  test::translate(second, {1.5, 0.25, 0.25});
+  const auto first = static_cast<std::uint32_t>(both.vertices.size());
+  both.vertices.insert(both.vertices.end(), second.vertices.begin(), second.vertices.end());
+  for (const Triangle& t : second.triangles) both.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  test::write_file(path("both.obj"), test::to_obj(both));
+  test::write_file(path("one.csv"), "x,y,z,radius\n0.5,0.5,0.5,0.5\n");
+  const ToolResult result = follow({"both.obj", "both.obj", "--balls", "one.csv", "-o", "-"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("no volume is known"));
+  EXPECT_EQ(frame_line(result.out, 1)[3], "");
+}
+
+TEST_F(FollowCommand, AnOpenMeshWithoutBallsInsideIsRefused) {
+  Mesh open = test::make_box({2, 1, 1});
+  open.triangles.resize(2);
+  test::write_file(path("open.obj"), test::to_obj(open));
+  const ToolResult result = follow({"open.obj", "open.obj", "--balls", "balls.csv"});
+  EXPECT_THAT(result.exit_code, testing::AnyOf(2, 3)) << result.err;
+  EXPECT_THAT(folder_.names(), testing::Not(testing::Contains("open.follow.npz")));
+}
+
+TEST_F(FollowCommand, NamesMayHoldAnyBytes) {
+  const std::string name = "n\xff.obj";
+  test::write_file(path(name), test::to_obj(test::make_box({2, 1, 1})));
+  const ToolResult result = follow({name, "box_1.obj", "--balls", "balls.csv", "-o", "n.glb", "-q"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+TEST_F(FollowCommand, VerticesThatPartMoveAsTheFirst) {
+  // The corner at the origin, twice; its copy moves alone.
+  std::string rest = test::to_obj(test::make_box({2, 1, 1})), moved = rest;
+  const std::size_t first_line = rest.find("v ");
+  const std::string corner = rest.substr(first_line, rest.find('\n', first_line) - first_line + 1);
+  rest.insert(first_line, corner);
+  moved.insert(first_line, "v -0.25 0 0\n");
+  const auto shifted = [](const std::string& text) {
+    std::istringstream in(text);
+    std::string out, line;
+    while (std::getline(in, line)) {
+      std::istringstream words(line);
+      std::string kind;
+      words >> kind;
+      if (kind != "f") {
+        out += line + "\n";
+        continue;
+      }
+      out += "f";
+      for (std::size_t i; words >> i;) out += " " + std::to_string(i + 1);
+      out += "\n";
+    }
+    return out;
+  };
+  test::write_file(path("rest.obj"), shifted(rest) + "f 1 3 2\n");
+  test::write_file(path("moved.obj"), shifted(moved) + "f 1 3 2\n");
+  const ToolResult result = follow({"rest.obj", "moved.obj", "--balls", "balls.csv"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("up to 0.25 apart in a frame"));
+}
+
+TEST_F(FollowCommand, AnimationsAreFollowedAndRigged) {
+  test::write_file(path("bow.glb"), test::skinned_animation().glb());
+  test::write_file(path("ball.csv"), "x,y,z,radius\n5.25,0.25,0.25,0.125\n");
+  const ToolResult result = follow({"bow.glb", "--balls", "ball.csv", "--fps", "4", "-o", "bow.csv", "-o", "bow.npz",
+                                    "--rig", "bow.json", "--html", "bow.html", "--check"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("5 frames")) << "at 0, 1/4 ... 1";
+  EXPECT_EQ(frame_line(read_file(path("bow.csv")), 5)[2], "1.25") << "the last frame follows the rest pose after five";
+  const auto rig = nlohmann::json::parse(read_file(path("bow.json")));
+  EXPECT_EQ(rig["frames"], 6) << "with the rest pose";
+  ASSERT_EQ(rig["joints"].size(), 2u);
+  EXPECT_EQ(rig["joints"][1]["name"], "tip");
+  ASSERT_EQ(rig["balls"].size(), 1u);
+  EXPECT_GT(rig["balls"][0]["radius"], 0);
+  EXPECT_LE(rig["balls"][0]["radius"], rig["balls"][0]["rest_radius"]);
+  EXPECT_THAT(read_file(path("bow.html")), HasSubstr("bow.glb"));
+  const ToolResult other = follow({"bow.glb", "--balls", "ball.csv", "--animation", "jump"});
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.err, HasSubstr("bow")) << "the animations that there are";
+}
+
+TEST_F(FollowCommand, HelpNeedsNoMesh) {
+  const ToolResult help = follow({"--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_THAT(help.out, StartsWith("medial-vk follow moves balls"));
+  const ToolResult nothing = follow({});
+  EXPECT_EQ(nothing.exit_code, 2);
+  EXPECT_THAT(nothing.err, HasSubstr("Try medial-vk follow --help."));
+}
+
+}  // namespace
+}  // namespace medial_vk
