@@ -179,7 +179,7 @@ Status FollowerJob::Impl::fill(const IndexedMesh& rest, const Bvh& bvh, const Th
   for (std::uint32_t level = 0; level < tree.level_count; ++level) level_sizes.push_back(tree.nodes_of(level));
   if (Status status = make_buffers(); !status) return status;
   Uploads uploads(context);
-  const auto upload_all = [&]<class T>(const std::vector<T>& values, const char* purpose, Buffer& buffer) -> Status {
+  const auto upload_all = [&](const auto& values, const char* purpose, Buffer& buffer) -> Status {
     Result<Buffer> made = create_filled(arena, uploads, std::span(values), purpose);
     if (!made.ok()) return made.error();
     buffer = made.value();
