@@ -161,7 +161,10 @@ TEST(BallRig, JointsWithoutAnInverseMoveNothing) {
 TEST(BallRig, EveryFrameLimitsTheRadii) {
   BallRig rig;
   rig.balls.resize(3);
-  for (RigBall& ball : rig.balls) ball.rest_radius = ball.radius = 1;
+  for (RigBall& ball : rig.balls) {
+    ball.rest_radius = ball.radius = 1;
+    ball.joints = {{0, 1, {0, 0, 0}}};
+  }
   limit_radii(std::vector<double>{1, 1, 2}, rig);
   limit_radii(std::vector<double>{0.75, -0.5, 1.5}, rig);
   limit_radii(std::vector<double>{0.875, 1, 1}, rig);
