@@ -46,6 +46,7 @@ Joints joints_near(const MotionRig& rig, std::span<const Point> vertices, const 
     for (const RigInfluence& influence : rig.influences_of(nearest)) shares[influence.joint] += influence.weight;
   }
   std::vector<std::pair<double, std::uint32_t>> order;
+  order.reserve(shares.size());
   for (const auto& [joint, share] : shares) order.emplace_back(-share, joint);
   std::ranges::sort(order);
   Joints joints;
