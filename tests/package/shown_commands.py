@@ -94,7 +94,8 @@ def outputs_of(words):
     if arguments[:1] in (["distance"], ["clearance"]):
         return files
     if arguments[:1] == ["follow"]:
-        return files if {"-o", "--output"} & set(arguments) else [*files, pathlib.Path(arguments[1]).stem + ".follow.npz"]
+        is_named = {"-o", "--output", "--help"} & set(arguments)
+        return files if is_named else [*files, pathlib.Path(arguments[1]).stem + ".follow.npz"]
     meshes = [a for a in arguments if re.search(r"\.(obj|stl|ply)$", a) and a not in files]
     if arguments[:1] == ["spheres"]:
         robots = [a for a in arguments if a.endswith(".urdf") and a not in files]
