@@ -88,8 +88,11 @@ std::string follow_opening(const FollowOptions& options, const MeshReport& repor
                                  grouped(report.triangles), report.closed ? "closed" : "not closed", grouped(frames),
                                  frames == 1 ? "frame" : "frames");
   if (report.closed && !encloses_volume(report)) {
-    text += labelled(
-        "note", "faces cross or lie inside the solid: parts that overlap would count twice, so no volume is known");
+    text +=
+        labelled("note", report.intersections_known
+                             ? "faces cross or lie inside the solid: parts that overlap would count twice, so no "
+                               "volume is known"
+                             : "too many faces lie close together to know whether some cross, so no volume is known");
   }
   if (separable > 0) {
     text +=

@@ -26,19 +26,9 @@ TEST(FollowerJobOfAnyFrame, InAnyUnitAndPlace) {
   const Example example = torus();
   for (const double unit : {1e-24, 1.0, 1e24}) {
     for (const double away : {0.0, 20.0}) {
-      const auto placed = [&](Frame frame) {
-        for (Point& p : frame) p = unit * (p + Point{away, -away, away});
-        return frame;
-      };
-      Mesh mesh = example.mesh.prepared().mesh;
-      mesh.vertices = placed(mesh.vertices);
-      std::vector<Ball> balls = example.balls;
-      for (Ball& ball : balls) {
-        ball = {unit * (ball.centre + Point{away, -away, away}), unit * (ball.radius * (1 - 1e-6))};
-      }
-      const IndexedMesh indexed = test::indexed(test::view_of(mesh));
-      FollowedOnDevice device(test::quick_device(), indexed, balls);
-      const Frame frame = placed(test::moved_vertices(example.rest(), test::Motion::kBend, 1));
+      const PlacedExample placed(example, unit, away);
+      FollowedOnDevice device(test::quick_device(), placed.mesh, placed.balls);
+      const Frame frame = placed.place(test::moved_vertices(example.rest(), test::Motion::kBend, 1));
       device.update(frame);
       EXPECT_LE(device.lost(), 2u) << unit << " " << away;
       device.expect_inside(frame, "placed");

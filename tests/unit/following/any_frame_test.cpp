@@ -17,22 +17,12 @@ TEST(FollowerOfAnyFrame, InAnyUnitAndPlace) {
   const Example example = torus();
   for (const double unit : {1e-50, 1.0, 1e50}) {
     for (const double away : {0.0, 1e9}) {
-      const auto placed = [&](Frame frame) {
-        for (Point& p : frame) p = unit * (p + Point{away, -away, away});
-        return frame;
-      };
-      Mesh mesh = example.mesh.prepared().mesh;
-      mesh.vertices = placed(mesh.vertices);
-      std::vector<Ball> balls = example.balls;
-      for (Ball& ball : balls) {
-        ball = {unit * (ball.centre + Point{away, -away, away}), unit * (ball.radius * (1 - 1e-6))};
-      }
-      const IndexedMesh indexed = test::indexed(test::view_of(mesh));
-      Follower follower = Follower::create(indexed, balls).value();
-      const Frame frame = placed(test::moved_vertices(example.rest(), test::Motion::kBend, 1));
+      const PlacedExample placed(example, unit, away);
+      Follower follower = Follower::create(placed.mesh, placed.balls).value();
+      const Frame frame = placed.place(test::moved_vertices(example.rest(), test::Motion::kBend, 1));
       ASSERT_TRUE(follower.update(frame).ok());
       EXPECT_EQ(lost(follower), 0u);
-      expect_inside(follower, indexed, frame, "placed");
+      expect_inside(follower, placed.mesh, frame, "placed");
     }
   }
 }

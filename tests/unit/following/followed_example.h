@@ -54,6 +54,35 @@ struct Example {
   std::vector<Ball> balls;
 };
 
+/// An example in another unit and place; its balls are smaller by more than the rounding of their places.
+class PlacedExample {
+  double unit_;
+  Point shift_;
+
+ public:
+  PlacedExample(const Example& of, double unit, double away)
+      : unit_(unit), shift_{away, -away, away}, mesh(placed_mesh(of)) {
+    for (const Ball& ball : of.balls) {
+      balls.push_back({unit_ * (ball.centre + shift_), unit_ * (ball.radius * (1 - 1e-6))});
+    }
+  }
+
+  Frame place(Frame frame) const {
+    for (Point& p : frame) p = unit_ * (p + shift_);
+    return frame;
+  }
+
+  IndexedMesh mesh;
+  std::vector<Ball> balls;
+
+ private:
+  IndexedMesh placed_mesh(const Example& of) const {
+    Mesh moved = of.mesh.prepared().mesh;
+    moved.vertices = place(moved.vertices);
+    return test::indexed(test::view_of(moved));
+  }
+};
+
 inline Example torus() { return Example(test::make_turned_torus(40, 20)); }
 inline Example l_shape() { return Example(test::make_l_shape(2, 0.6, 0.8)); }
 
