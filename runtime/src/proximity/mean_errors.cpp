@@ -40,12 +40,12 @@ std::vector<float> means(std::span<const Sample> samples, std::size_t balls) {
 
 MeanErrors mean_errors(const Solid& solid, const BodyTree& inside, const BodyTree& cover, const Point& centre,
                        unsigned threads, BuildWatch& watch) {
-  constexpr std::size_t kMost = 4096, kOfBall = 8, kBlock = 64;
+  constexpr std::size_t kMost = 4096, kOfBall = 8, kTogether = 64;
   const std::size_t count = std::min(kMost, kOfBall * (inside.size() + cover.size()));
   const std::vector<Probe> probes = probes_around(solid, count, threads, [&watch] { watch.check(); });
   std::vector<Sample> of_inside(probes.size()), of_cover(probes.size());
   const FloatPose pose{Pose()};
-  parallel_for(probes.size(), kBlock, threads, [&](std::size_t i) {
+  parallel_for(probes.size(), kTogether, threads, [&](std::size_t i) {
     watch.check();
     const Ball at = {probes[i].outside(), 0};
     const BodyTree point = BodyTree::build({&at, 1}, centre);
