@@ -198,5 +198,30 @@ TEST_F(RecordedJobFaults, OfASequenceOfBallsThatIsRecordedAgain) {
       "a sequence of balls that is recorded again", prepare, [&] { return host_->record_and_run(job, 2); }, expected);
 }
 
+// 10,000 frames must take no more memory than a few do, of neither kind.
+TEST_F(RecordedJobFaults, LaterSequencesOfBallsAllocateNothing) {
+  const PreparedMesh mesh = small_box(), moved = sheared(mesh);
+  Context context = Context::adopt(host_->lend()).value();
+  FollowerJobOptions options;
+  options.frames = 2;
+  FollowerJob job = FollowerJob::create(context, test::indexed(mesh), balls_to_follow(mesh), options).value();
+  std::vector<std::string> answers;
+  for (int sequence = 0; sequence < 8; ++sequence) {
+    SCOPED_TRACE(sequence);
+    const std::vector<Point>& frame = (sequence % 2 == 0 ? moved : mesh).mesh.vertices;
+    ASSERT_TRUE(in_runtime([&] { return job.set_vertices(frame); }).ok());
+    vulkan().fail_call(~std::uint64_t{0}, Fault::kOutOfHostMemory);  // none fails, all are counted
+    const bool is_first = sequence < 2;
+    if (!is_first) fail_new(1);
+    const Answer answer = host_->record_and_run(job, 2);
+    const bool has_allocated = stop_failing_new();
+    EXPECT_FALSE(has_allocated && !is_first);
+    ASSERT_TRUE(answer.ok()) << answer.error().message;
+    answers.push_back(answer.value());
+    EXPECT_EQ(vulkan().calls() > 0, is_first) << vulkan().calls();
+  }
+  EXPECT_NE(answers[6], answers[7]);
+}
+
 }  // namespace
 }  // namespace medial_vk::test

@@ -1,6 +1,7 @@
 #include "medial_vk/bvh.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <string>
 
@@ -35,22 +36,27 @@ Status check_triangle(const MeshView& mesh, std::size_t triangle) {
   return {};
 }
 
-/// Names the first triangle that is at fault.
+void lower_to(std::size_t value, std::atomic<std::size_t>& bound) {
+  std::size_t present = bound.load();
+  while (value < present && !bound.compare_exchange_weak(present, value)) {
+  }
+}
+
+/// Names the first triangle that is at fault. Allocates nothing unless one is.
 Status check_mesh(const MeshView& mesh, unsigned threads) {
   const std::size_t count = mesh.triangles.size();
   if (count == 0) return invalid_mesh("the mesh has no triangle");
   if (count >= 0x7fffffffu) return invalid_mesh("the mesh has more than 2147483646 triangles");
-  std::vector<std::size_t> faults((count + kTrianglesOfBlock - 1) / kTrianglesOfBlock, count);  // by block
+  std::atomic<std::size_t> first = count;
   parallel_blocks(count, kTrianglesOfBlock, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = end; t-- > begin;) {
+    for (std::size_t t = begin; t < std::min(end, first.load()); ++t) {
       const Triangle& triangle = mesh.triangles[t];
       const bool fine = std::all_of(triangle.begin(), triangle.end(), [&](std::uint32_t v) {
         return v < mesh.vertices.size() && is_finite(mesh.vertices[v]);
       });
-      if (!fine) faults[begin / kTrianglesOfBlock] = t;
+      if (!fine) lower_to(t, first);
     }
   });
-  const std::size_t first = *std::min_element(faults.begin(), faults.end());
   return first < count ? check_triangle(mesh, first) : Status();
 }
 

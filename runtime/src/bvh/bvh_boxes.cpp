@@ -36,6 +36,10 @@ struct Subtree {
 }  // namespace
 
 void fit_boxes(std::span<BvhNode> nodes, std::span<const std::array<Point, 3>> corners, unsigned threads) {
+  if (threads == 1 || nodes.size() <= kMostNodes) {  // without lists, so that a frame of a motion allocates nothing
+    for (std::size_t node = nodes.size(); node-- > 0;) fit(nodes, corners, static_cast<std::uint32_t>(node));
+    return;
+  }
   std::vector<Subtree> subtrees;
   std::vector<std::uint32_t> above;  // their ancestors, parents first
   std::vector<Subtree> pending = {{0, 1, static_cast<std::uint32_t>(nodes.size())}};

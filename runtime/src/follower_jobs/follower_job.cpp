@@ -66,6 +66,11 @@ std::vector<std::uint32_t> places_of(const Bvh& bvh) {
 }  // namespace
 
 struct FollowerJob::Impl {
+  /// Of the dispatches; made once, since their names take memory.
+  struct Keys {
+    ProgramKey place_triangles, refit_level, refit_small_levels, follow, prepare_resolve, resolve;
+    std::array<ProgramKey, 5> complete;  // after `resolve`, in this order
+  };
   /// The resources of a recorded sequence, in use until it has finished.
   struct Frame {
     Buffer staged;                       // vertices from the host
@@ -83,6 +88,7 @@ struct FollowerJob::Impl {
   bool use_texels = true;  // triangles and nodes are not too large for views
   VkBufferView triangle_texels = VK_NULL_HANDLE, node_texels = VK_NULL_HANDLE;
   std::vector<std::uint32_t> level_sizes;
+  Keys keys;
   float scale = 1;
   std::vector<Frame> frames;
   std::size_t next = 0;       // the frame that is recorded next
@@ -94,6 +100,7 @@ struct FollowerJob::Impl {
               const std::vector<gpu::FollowRest>& at_rest);
   Status make_buffers();
   Status make_views();
+  void make_keys();
   Status append(Recorder& r, const Frame& frame) const;
   void refit(Recorder& r) const;
   void follow(Recorder& r) const;
@@ -165,6 +172,23 @@ Status FollowerJob::Impl::make_views() {
   return {};
 }
 
+void FollowerJob::Impl::make_keys() {
+  const auto of_balls = [&](const char* shader, std::uint32_t group = kWorkgroupSize) {
+    constexpr std::uint32_t kStorage = 10, kTexels = 2;  // as in follow()
+    return ProgramKey{
+        std::string(shader) + storage_suffix(use_texels), kStorage, kTexels, sizeof(gpu::FollowConstants), group, {}};
+  };
+  constexpr auto kBytes = static_cast<std::uint32_t>(sizeof(gpu::RefitConstants));
+  keys.place_triangles = {"place_triangles", 4, 0, kBytes, kWorkgroupSize, {}};
+  keys.refit_level = {"refit_nodes", 3, 0, kBytes, kWorkgroupSize, {0}};
+  keys.refit_small_levels = {"refit_nodes", 3, 0, kBytes, kResolveGroup, {1}};
+  keys.follow = of_balls("follow_balls");
+  keys.prepare_resolve = {"prepare_resolve", 1, 0, 0, 1, {}};
+  keys.resolve = of_balls("resolve_followed", kResolveGroup);
+  keys.complete = {of_balls("follow_again"), of_balls("connect_balls"), of_balls("cast_rays"), of_balls("settle_balls"),
+                   of_balls("recover_balls")};
+}
+
 Status FollowerJob::Impl::fill(const IndexedMesh& rest, const Bvh& bvh, const ThreadedTree& tree,
                                const std::vector<gpu::FollowRest>& at_rest) {
   std::vector<std::uint32_t> corners;
@@ -192,14 +216,15 @@ Status FollowerJob::Impl::fill(const IndexedMesh& rest, const Bvh& bvh, const Th
   const std::vector<std::uint32_t> none(gpu::kUnresolvedFirst, 0);
   if (Status status = uploads.add(unresolved, std::as_bytes(std::span(none))); !status) return status;
   if (Status status = uploads.finish(); !status) return status;
-  return make_views();
+  if (Status status = make_views(); !status) return status;
+  make_keys();
+  return {};
 }
 
 void FollowerJob::Impl::refit(Recorder& r) const {
   gpu::RefitConstants constants = {triangle_count, 0, 0, scale};
   const std::array of_triangles = {vertices.range(), indices.range(), triangles.range(), lists.range()};
-  r.dispatch({"place_triangles", 4, 0, sizeof(constants), kWorkgroupSize, {}}, of_triangles, {}, bytes_of(constants),
-             triangle_count);
+  r.dispatch(keys.place_triangles, of_triangles, {}, bytes_of(constants), triangle_count);
   r.barrier();
   const std::array of_nodes = {triangles.range(), nodes.range(), levels.range()};
   const auto level_count = static_cast<std::uint32_t>(level_sizes.size());
@@ -207,9 +232,8 @@ void FollowerJob::Impl::refit(Recorder& r) const {
     const std::uint32_t nodes_here = level_sizes[constants.first_level];
     const bool is_small = nodes_here <= kSmallLevel;  // and so are those above
     constants.end_level = is_small ? level_count : constants.first_level + 1;
-    const std::uint32_t group = is_small ? kResolveGroup : kWorkgroupSize;
-    r.dispatch({"refit_nodes", 3, 0, sizeof(constants), group, {is_small ? 1u : 0u}}, of_nodes, {}, bytes_of(constants),
-               is_small ? group : nodes_here);
+    const ProgramKey& key = is_small ? keys.refit_small_levels : keys.refit_level;
+    r.dispatch(key, of_nodes, {}, bytes_of(constants), is_small ? key.workgroup_size : nodes_here);
     r.barrier();
     constants.first_level = constants.end_level;
   }
@@ -235,27 +259,17 @@ void FollowerJob::Impl::follow(Recorder& r) const {
                               balls.range(),
                               ball_states.range()};
   const std::array texels = {triangle_texels, node_texels};
-  const auto key = [&](const char* shader, std::uint32_t group) {
-    return ProgramKey{std::string(shader) + storage_suffix(use_texels),
-                      static_cast<std::uint32_t>(buffers.size()),
-                      static_cast<std::uint32_t>(texels.size()),
-                      sizeof(constants),
-                      group,
-                      {}};
-  };
-  const auto run = [&](const char* shader) {
-    r.dispatch(key(shader, kWorkgroupSize), buffers, texels, bytes_of(constants), ball_count);
+  const auto run = [&](const ProgramKey& key) {
+    r.dispatch(key, buffers, texels, bytes_of(constants), ball_count);
     r.barrier();
   };
-  run("follow_balls");
+  run(keys.follow);
   const std::array list = {unresolved.range()};
-  r.dispatch({"prepare_resolve", 1, 0, 0, 1, {}}, list, {}, {}, 1);
+  r.dispatch(keys.prepare_resolve, list, {}, {}, 1);
   r.barrier();
-  r.dispatch_indirect(key("resolve_followed", kResolveGroup), buffers, texels, bytes_of(constants), unresolved,
-                      gpu::kUnresolvedGroups * 4);
+  r.dispatch_indirect(keys.resolve, buffers, texels, bytes_of(constants), unresolved, gpu::kUnresolvedGroups * 4);
   r.barrier();
-  for (const char* shader : {"follow_again", "connect_balls", "cast_rays", "settle_balls", "recover_balls"})
-    run(shader);
+  for (const ProgramKey& key : keys.complete) run(key);
 }
 
 Status FollowerJob::Impl::append(Recorder& r, const Frame& frame) const {
