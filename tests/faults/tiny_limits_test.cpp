@@ -1,7 +1,10 @@
 // Poor devices: the same spheres as on a good one, or one error that names the missing feature.
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "fault_test.h"
+#include "lent_device.h"
 #include "vulkan_minimum.h"
 
 namespace medial_vk::test {
@@ -126,6 +129,36 @@ TEST_F(PoorDevice, WithNoMoreThanWhatIsRequiredGivesTheSameAnswers) {
   EXPECT_EQ(usage.sets, 1u);
   for (const auto& [name, count] : used) std::cout << name << " " << count << "\n";
   std::cout << "allocations of device memory at one time " << usage.allocations << "\n";
+}
+
+// A host's device, on which 16 balls follow a torus that bends, and the bytes of those balls.
+TEST_F(PoorDevice, FollowsBallsAsAGoodOneDoes) {
+  const IndexedMesh mesh = indexed(prepare(make_torus(1.0, 0.4, 24, 12)));
+  std::vector<Ball> balls;
+  for (int i = 0; i < 16; ++i) balls.push_back({{std::cos(0.35 * i), std::sin(0.35 * i), 0}, 0.3});
+  std::vector<Point> bent(mesh.view().vertices.begin(), mesh.view().vertices.end());
+  for (Point& p : bent) p[2] += 0.3 * p[0] * p[0];
+  std::vector<std::string> followed;
+  for (const bool poor : {false, true}) {
+    DeviceProfile profile = poor ? minimum_profile(true) : DeviceProfile{};
+    if (poor) {
+      profile.limits = [least = profile.limits](VkPhysicalDeviceLimits& limits) {
+        least(limits);
+        limits.maxTexelBufferElements = 1000;  // of 2,304 vectors: they are read through storage buffers
+      };
+    }
+    vulkan().set_profile(profile);
+    LentDevice host(open().value());
+    Context context = Context::adopt(host.lend()).value();
+    FollowerJob job = FollowerJob::create(context, mesh, balls).value();
+    ASSERT_TRUE(job.set_vertices(bent).ok());
+    const Answer answer = host.record_and_run(job, 16);
+    ASSERT_TRUE(answer.ok()) << answer.error().message;
+    followed.push_back(answer.value());
+    EXPECT_THAT(vulkan().violations(), testing::IsEmpty());
+  }
+  EXPECT_NE(followed[0], std::string(followed[0].size(), '\0'));
+  EXPECT_EQ(followed[0], followed[1]);
 }
 
 // The least maxTexelBufferElements that Vulkan allows is too low for this mesh.
