@@ -194,10 +194,10 @@ class Follower::Impl {
     if (!measured) return measured.error();
     const bool has_grown = uncovered_share(measured.value()) > options_.renewal_factor * rest_share_;
     if (!has_grown || !(rest_share_ > 0)) return {};
-    const Result<std::vector<Exchange>> exchanges =
+    const Result<std::vector<BallExchange>> exchanges =
         find_exchanges(surface_, present_, measured.value(), options_.renewed, options_.threads);
     if (!exchanges) return exchanges.error();
-    for (const Exchange& exchange : exchanges.value()) {
+    for (const BallExchange& exchange : exchanges.value()) {
       TrackedBall& tracked = tracked_[exchange.ball];
       tracked = exchange.by;
       tracked.rest_radius = tracked.ball.radius;

@@ -54,14 +54,14 @@ class Renewal {
           unsigned threads, DynamicUnion all)
       : surface_(surface), balls_(balls), measured_(measured), most_(most), threads_(threads), union_(std::move(all)) {}
 
-  Result<std::vector<Exchange>> run() {
+  Result<std::vector<BallExchange>> run() {
     if (Status status = add_balls(); !status) return status.error();
     find_candidates();
     if (Status status = value_candidates(); !status) return status.error();
     if (Status status = value_leaving(); !status) return status.error();
-    std::vector<Exchange> exchanges;
+    std::vector<BallExchange> exchanges;
     while (exchanges.size() < most_) {
-      Result<std::optional<Exchange>> exchange = next_exchange();
+      Result<std::optional<BallExchange>> exchange = next_exchange();
       if (!exchange) return exchange.error();
       if (!exchange.value()) break;
       exchanges.push_back(std::move(*exchange.value()));
@@ -209,7 +209,7 @@ class Renewal {
   }
 
   /// The next exchange, or none if no further one is worth it.
-  Result<std::optional<Exchange>> next_exchange() {
+  Result<std::optional<BallExchange>> next_exchange() {
     while (!gains_.empty() && !losses_.empty()) {
       const Result<Valued> best = pop_best();
       if (!best) return best.error();
@@ -218,23 +218,23 @@ class Renewal {
       const Result<Valued> weakest = pop_weakest();
       if (!weakest) return weakest.error();
       if (!(best.value().first > kWorth * weakest.value().first)) break;
-      return exchange(weakest.value().second, by);
+      return make_exchange(weakest.value().second, by);
     }
-    return std::optional<Exchange>();
+    return std::optional<BallExchange>();
   }
 
   /// No exchange if the union does not grow by it.
-  Result<std::optional<Exchange>> exchange(std::uint32_t ball, const TrackedBall& by) {
+  Result<std::optional<BallExchange>> make_exchange(std::uint32_t ball, const TrackedBall& by) {
     const double before = union_.volume();
     const Status status = is_lost(ball) ? add(ball, by.ball) : union_.move(slot_of_[ball], by.ball);
     if (!status) return status.error();
-    if (!(union_.volume() > kCertain * before)) return std::optional<Exchange>();
-    Exchange exchange = {ball, by, {}};
+    if (!(union_.volume() > kCertain * before)) return std::optional<BallExchange>();
+    BallExchange exchange = {ball, by, {}};
     for (const std::uint32_t slot : union_.changed()) {
       const std::uint32_t other = ball_at_[slot];
       if (union_.holds(slot) && other != ball) exchange.others.push_back(other);
     }
-    return std::optional<Exchange>(std::move(exchange));
+    return std::optional<BallExchange>(std::move(exchange));
   }
 
   const MovingSurface& surface_;
@@ -260,8 +260,8 @@ double largest_coordinate(const MovingSurface& surface, std::span<const Ball> ba
 
 }  // namespace
 
-Result<std::vector<Exchange>> find_exchanges(const MovingSurface& surface, std::span<const Ball> balls,
-                                             const BallUnion& measured, std::uint32_t most, unsigned threads) {
+Result<std::vector<BallExchange>> find_exchanges(const MovingSurface& surface, std::span<const Ball> balls,
+                                                 const BallUnion& measured, std::uint32_t most, unsigned threads) {
   Result<DynamicUnion> all =
       DynamicUnion::build(static_cast<std::uint32_t>(balls.size()), largest_coordinate(surface, balls));
   if (!all) return all.error();

@@ -14,7 +14,7 @@
 namespace medial_vk {
 
 /// A ball that leaves its place.
-struct Exchange {
+struct BallExchange {
   std::uint32_t ball;
   TrackedBall by;                     ///< Inside the surface.
   std::vector<std::uint32_t> others;  ///< Balls next to which it was or is.
@@ -23,7 +23,7 @@ struct Exchange {
 /// Up to `most` exchanges, in their order: each of them enlarges the union of all balls. `measured` is the union of
 /// `balls`, with its vertices; balls of radius 0 are lost. The result does not depend on `threads`. Errors:
 /// kOutOfMemory, kUsage (as DynamicUnion::add()).
-Result<std::vector<Exchange>> find_exchanges(const MovingSurface& surface, std::span<const Ball> balls,
-                                             const BallUnion& measured, std::uint32_t most, unsigned threads);
+Result<std::vector<BallExchange>> find_exchanges(const MovingSurface& surface, std::span<const Ball> balls,
+                                                 const BallUnion& measured, std::uint32_t most, unsigned threads);
 
 }  // namespace medial_vk
