@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "following/ascent.h"
 #include "following/greatest_ball.h"
 #include "following/tangent_rule.h"
 #include "medial_vk/dynamic_union.h"
@@ -33,6 +34,10 @@ constexpr double kSameGap = 0.5;
 /// the union has grown, far above the rounding of its volume (10^-12).
 constexpr double kWorth = 1.1;
 constexpr double kCertain = 1 + 1e-10;
+
+/// The steps of a ball that has come, and the first of them as a share of its radius.
+constexpr int kSlides = 2;
+constexpr double kFirstSlide = 0.2;
 
 constexpr std::uint32_t kNowhere = 0xffffffffu;
 
@@ -230,11 +235,36 @@ class Renewal {
     if (!status) return status.error();
     if (!(union_.volume() > kCertain * before)) return std::optional<BallExchange>();
     BallExchange exchange = {ball, by, {}};
+    note_others(exchange);
+    if (Status moved = slide(exchange); !moved) return moved.error();
+    return std::optional<BallExchange>(std::move(exchange));
+  }
+
+  void note_others(BallExchange& exchange) const {
     for (const std::uint32_t slot : union_.changed()) {
       const std::uint32_t other = ball_at_[slot];
-      if (union_.holds(slot) && other != ball) exchange.others.push_back(other);
+      if (union_.holds(slot) && other != exchange.ball) exchange.others.push_back(other);
     }
-    return std::optional<BallExchange>(std::move(exchange));
+  }
+
+  /// Steps of the new ball towards more volume, as long as the union grows.
+  Status slide(BallExchange& exchange) {
+    const std::uint32_t slot = slot_of_[exchange.ball];
+    for (int step = 0; step < kSlides; ++step) {
+      TrackedBall moved = exchange.by;
+      if (step == 0) moved.step = kFirstSlide;
+      ascend(surface_, union_.exposure(slot), moved);
+      if (!surface_.holds(moved.ball)) return {};
+      const double before = union_.volume();
+      if (Status status = union_.move(slot, moved.ball); !status) return status.error();
+      if (!(union_.volume() > before)) {
+        union_.undo();
+        return {};
+      }
+      exchange.by = moved;
+      note_others(exchange);
+    }
+    return {};
   }
 
   const MovingSurface& surface_;
