@@ -1,5 +1,5 @@
 // Balls that follow a mesh through five motions of 20 frames: rows of a table.
-//   bench_following [--frames N] [--repeats N] [--threads N] [--fresh] MESH BALLS.csv
+//   bench_following [--frames N] [--repeats N] [--threads N] [--motion NAME] [--fresh] MESH BALLS.csv
 // For each motion and rule: the share of the solid's volume that is in no ball at its end, and after the way back; the
 // time of a frame by the clock and of the processor, medians of all frames and repeats; with --fresh beside a new fit
 // of as many balls to the last frame.
@@ -36,11 +36,12 @@ using Frames = std::vector<std::vector<Point>>;
 struct Rule {
   const char* name;
   FollowRule rule;
-  std::uint32_t steps;
+  std::uint32_t steps, renewed;
 };
-constexpr std::array kRules = {Rule{"published", FollowRule::kPublished, 0}, Rule{"tangent", FollowRule::kTangent, 0},
-                               Rule{"tangent, 1 step", FollowRule::kTangent, 1},
-                               Rule{"tangent, 2 steps", FollowRule::kTangent, 2}};
+constexpr std::array kRules = {
+    Rule{"published", FollowRule::kPublished, 0, 0}, Rule{"tangent", FollowRule::kTangent, 0, 0},
+    Rule{"tangent, 1 step", FollowRule::kTangent, 1, 0}, Rule{"tangent, 2 steps", FollowRule::kTangent, 2, 0},
+    Rule{"tangent, 1 step, 25 anew", FollowRule::kTangent, 1, 25}};
 
 Frames frames_of(std::span<const Point> rest, Motion motion, int count) {
   Frames frames;
@@ -75,6 +76,7 @@ void follow(const std::string& title, const Rule& rule, const IndexedMesh& mesh,
   FollowerOptions options;
   options.rule = rule.rule;
   options.steps = rule.steps;
+  options.renewed = rule.renewed;
   options.threads = threads;
   Follower follower = or_exit(Follower::create(mesh, balls, options));
   const Uncovered rest = uncovered(follower);
@@ -113,13 +115,14 @@ std::string fresh_fit(const IndexedMesh& mesh, const std::vector<Point>& frame, 
 
 int main(int argc, char** argv) {
   CLI::App app{"Balls that follow a mesh"};
-  std::string mesh_file, ball_file;
+  std::string mesh_file, ball_file, only;
   int frames = 20, repeats = 1;
   bool fresh = false;
   unsigned threads = 0;
   app.add_option("--frames", frames)->check(CLI::PositiveNumber);
   app.add_option("--repeats", repeats)->check(CLI::PositiveNumber);
   app.add_option("--threads", threads);
+  app.add_option("--motion", only);
   app.add_flag("--fresh", fresh);
   app.add_option("MESH", mesh_file)->required();
   app.add_option("BALLS", ball_file)->required();
@@ -129,6 +132,7 @@ int main(int argc, char** argv) {
   std::optional<Context> context;
   if (fresh) context.emplace(or_exit(Context::create()));
   for (const Motion motion : kMotions) {
+    if (!only.empty() && only != name_of(motion)) continue;
     const Frames moved = frames_of(mesh.view().vertices, motion, frames);
     const std::string again = context ? fresh_fit(mesh, moved.back(), balls.size(), *context) : "";
     for (const Rule& rule : kRules) follow(name_of(motion), rule, mesh, balls, moved, repeats, again, threads);

@@ -109,6 +109,38 @@ TEST_F(FollowCommand, FromRestAFrameDoesNotDependOnThoseBefore) {
   EXPECT_EQ(frame_line(both.out, 2)[4], frame_line(last.out, 1)[4]) << "the volume of the balls";
 }
 
+TEST_F(FollowCommand, BallsAreChosenAnewOnRequest) {
+  test::write_file(path("near.csv"), "x,y,z,radius\n0.5,0.5,0.5,0.5\n0.6,0.5,0.5,0.5\n0.7,0.5,0.5,0.5\n");
+  const std::vector<std::string> plain = {"box_0.obj", "box_1.obj", "box_2.obj", "--balls", "near.csv", "--steps", "0"};
+  const auto follow_near = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), plain.begin(), plain.end());
+    return follow(std::move(more));
+  };
+  const ToolResult result =
+      follow_near({"-o", "a.csv", "-o", "a.npz", "--renew", "1", "--renew-factor", "1", "--check"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("times a ball, in "));
+  EXPECT_THAT(result.err, HasSubstr("at most 1 in one; beyond 1 times what is uncovered at rest"));
+  const ToolResult without = follow_near({"-o", "-", "-q"});
+  ASSERT_EQ(without.exit_code, 0) << without.err;
+  EXPECT_THAT(without.out, testing::Not(HasSubstr("renewed")));
+  const std::string table = read_file(path("a.csv"));
+  EXPECT_THAT(table, HasSubstr("lost,renewed\n0,rest,"));
+  EXPECT_EQ(frame_line(table, 0).back(), "0");
+  EXPECT_EQ(frame_line(table, 1).back(), "1") << "three balls are near one end";
+  EXPECT_GT(std::stod(frame_line(table, 1)[4]), std::stod(frame_line(without.out, 1)[4])) << "the volume of the balls";
+  EXPECT_THAT(read_file(path("a.npz")), HasSubstr("origins.npy"));
+}
+
+TEST_F(FollowCommand, AnOpenMeshHasNoVolumeThatCouldGrow) {
+  Mesh open = test::make_box({2, 1, 1});
+  open.triangles.pop_back();
+  test::write_file(path("open.obj"), test::to_obj(open));
+  const ToolResult result = follow({"open.obj", "open.obj", "--balls", "balls.csv", "--renew", "1"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("--renew: open.obj is not closed"));
+}
+
 TEST_F(FollowCommand, ThePublishedRuleReportsWhatMayBeOutside) {
   const ToolResult result = follow_box({"-o", "a.npz", "--rule", "published"});
   ASSERT_EQ(result.exit_code, 0) << result.err;

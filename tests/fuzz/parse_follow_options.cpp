@@ -22,6 +22,10 @@ void require_usable(const cli::FollowOptions& options) {
   require(follower.protrusion > 0 && follower.protrusion < 1, "--protrusion keeps its range");
   require(follower.shrunk >= 0 && follower.shrunk <= 1, "--shrunk keeps its range");
   require(follower.object_angle >= 0 && follower.object_angle < 1.6, "--object-angle keeps its range");
+  require(follower.renewed <= 10'000, "--renew keeps its range");
+  require(follower.renewal_factor >= 1 && follower.renewal_factor <= 1000, "--renew-factor keeps its range");
+  require(follower.renewed == 0 || follower.rule == FollowRule::kTangent, "the published rule renews no ball");
+  require(follower.renewed == 0 || options.rig.empty(), "balls of a rig are not exchanged");
   require(follower.threads <= 1024, "--threads keeps its range");
   require(!(options.quiet && options.verbose), "-q and -v exclude each other");
   for (const cli::NamedOutput& output : cli::outputs_of(options)) {

@@ -28,10 +28,18 @@ struct FollowerOptions {
   /// kPublished: the distance (xi) by which a ball may reach out, as a share of the longest side in the rest pose;
   /// positive. The source has 0.25 %.
   double protrusion = 0.0025;
-  /// A ball whose radius is below this share of its radius in the rest pose counts as shrunk.
+  /// A ball whose radius is below this share of its radius in the rest pose, or in the frame in which it was chosen
+  /// anew, counts as shrunk.
   double shrunk = 0.5;
   /// A ball whose object angle, in radians, is below this counts as no longer medial.
   double object_angle = 0.5;
+  /// kTangent, for closed meshes: the greatest number of balls that are chosen anew in a frame. Such a ball leaves its
+  /// place for one at a gap between the surface and the balls, if the union grows by that. A frame in which this is
+  /// tried takes the time of some fifteen measure_ball_union(), any other frame that of one.
+  std::uint32_t renewed = 0;
+  /// It is tried in frames whose uncovered share of the volume is more than this many times that in the rest pose (by
+  /// FollowMeasures); from 1 up.
+  double renewal_factor = 1.5;
   unsigned threads = 0;  ///< Of the host, 0: one per core. The result does not depend on it.
 
   bool operator==(const FollowerOptions&) const = default;
@@ -40,10 +48,17 @@ struct FollowerOptions {
 enum class FollowState : std::uint8_t {
   kMedial,  ///< None of the others.
   kFlat,    ///< It has two contacts with a small object angle. kTangent only.
-  kShrunk,  ///< Its radius is a small share of that in the rest pose.
+  kShrunk,  ///< Its radius is a small share of that in the rest pose, or of that with which it was chosen anew.
   /// Lost in this frame, with radius 0: no ball of 2^-30 of the longest side or more is known to be inside at its
   /// contacts. It may return in a later frame.
   kLost,
+};
+
+/// Where a ball of the present frame comes from.
+enum class FollowOrigin : std::uint8_t {
+  kFollowed,  ///< From the ball of the frame before, or from that of the rest pose.
+  kRenewed,   ///< It was chosen anew in this frame (FollowerOptions::renewed).
+  kReturned,  ///< It was chosen anew in an earlier frame, and is at its place of the rest pose again.
 };
 
 /// Numbers of a frame, in mesh units.
@@ -66,8 +81,8 @@ class Follower {
   /// The balls lie inside the solid in the rest pose, up to a millionth of the longest side, as medial spheres and fits
   /// with contract `inside` do. kTangent: each of them grows along its spoke until it touches the boundary a second
   /// time; the result holds the given ball up to 1e-10 of the longest side, if that was inside. Errors: kUsage (no
-  /// ball; an option out of range; names a ball that is not inside), kInvalidMesh (a longest side below 1e-60, a
-  /// coordinate above 1e60), kOutOfMemory.
+  /// ball; an option out of range; `renewed` of a mesh that is not closed or by kPublished; names a ball that is not
+  /// inside), kInvalidMesh (a longest side below 1e-60, a coordinate above 1e60), kOutOfMemory.
   static Result<Follower> create(const IndexedMesh& rest, std::span<const Ball> balls,
                                  const FollowerOptions& options = {});
   Follower(Follower&&) noexcept;
@@ -92,6 +107,7 @@ class Follower {
   /// reset() change their elements.
   std::span<const Ball> balls() const;
   std::span<const FollowState> states() const;
+  std::span<const FollowOrigin> origins() const;
   /// Of the present frame; takes the time of measure_ball_union(), or of two. Errors: those of that call.
   Result<FollowMeasures> measure() const;
 

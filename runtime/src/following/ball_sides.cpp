@@ -26,7 +26,13 @@ Result<BallSides> BallSides::build(std::span<const Ball> rest, unsigned threads)
   Result<BallUnion> ball_union = measure_ball_union(rest, BallUnionOptions{threads, true});
   if (!ball_union) return ball_union.error();
   sides.edges_ = std::move(ball_union.value().complex.edges);
+  sides.rest_edges_ = sides.edges_;
   return sides;
+}
+
+void BallSides::renew(std::uint32_t ball, std::span<const std::uint32_t> others) {
+  std::erase_if(edges_, [&](const auto& edge) { return edge[0] == ball || edge[1] == ball; });
+  for (const std::uint32_t other : others) edges_.push_back({ball, other});
 }
 
 std::uint32_t BallSides::root(std::uint32_t ball) {

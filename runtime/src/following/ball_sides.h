@@ -20,6 +20,11 @@ class BallSides {
   /// kOutOfMemory, kUsage (as measure_ball_union()).
   static Result<BallSides> build(std::span<const Ball> rest, unsigned threads);
 
+  /// From now on this ball is expected to overlap these others, and no longer those before.
+  void renew(std::uint32_t ball, std::span<const std::uint32_t> others);
+  /// Expects what build() found.
+  void return_to_rest() { edges_ = rest_edges_; }
+
   /// Replaces `is_inside`, one element per ball: 1 if it is known to lie inside, 0 otherwise and for a radius of 0. The
   /// surface does not meet any ball.
   void find(const MovingSurface& surface, std::span<const Ball> balls, std::span<std::uint8_t> is_inside);
@@ -30,7 +35,7 @@ class BallSides {
   std::uint32_t root(std::uint32_t ball);
   void connect(std::span<const Ball> balls);
 
-  std::vector<std::array<std::uint32_t, 2>> edges_;
+  std::vector<std::array<std::uint32_t, 2>> edges_, rest_edges_;
   std::vector<std::uint32_t> parents_;
   std::vector<std::uint32_t> largest_;  // by root: the largest ball of the component
   std::vector<std::uint8_t> sides_;     // by root

@@ -14,6 +14,7 @@
 #include "following/greatest_ball.h"
 #include "following/moving_surface.h"
 #include "following/published_rule.h"
+#include "following/renewal.h"
 #include "following/tangent_rule.h"
 #include "following/tracked_ball.h"
 #include "medial_vk/ball_union.h"
@@ -26,7 +27,7 @@ constexpr std::size_t kBlock = 16;  // balls that one thread takes at a time
 /// By which a given ball may reach out of the mesh, as a share of the longest side: that of coordinates in float.
 constexpr double kGivenError = 1e-6;
 
-Status check_options(std::span<const Ball> balls, const FollowerOptions& options) {
+Status check_options(std::span<const Ball> balls, const FollowerOptions& options, bool is_closed) {
   const auto usage = [](const char* message) { return Error{ErrorCode::kUsage, message}; };
   if (balls.empty()) return usage("there is no ball to follow the mesh");
   if (!(options.protrusion > 0 && options.protrusion < 1)) return usage("`protrusion` must be positive and below 1");
@@ -34,6 +35,12 @@ Status check_options(std::span<const Ball> balls, const FollowerOptions& options
   if (!(options.object_angle >= 0 && std::isfinite(options.object_angle))) {
     return usage("`object_angle` must be finite and not negative");
   }
+  if (!(options.renewal_factor >= 1 && std::isfinite(options.renewal_factor))) {
+    return usage("`renewal_factor` must be finite and at least 1");
+  }
+  if (options.renewed == 0) return {};
+  if (options.rule == FollowRule::kPublished) return usage("`renewed` must be 0 where balls follow as published");
+  if (!is_closed) return usage("`renewed` must be 0 for a mesh that is not closed: its volume is not known");
   return {};
 }
 
@@ -84,12 +91,16 @@ class Follower::Impl {
   Status reset() {
     if (Status status = surface_.return_to_rest(options_.threads); !status) return status;
     std::ranges::copy(rest_, tracked_.begin());
+    std::ranges::fill(is_renewed_, std::uint8_t{0});
+    std::ranges::fill(came_, FollowOrigin::kFollowed);
+    sides_.return_to_rest();
     report();
     return {};
   }
 
   std::span<const Ball> balls() const { return balls_; }
   std::span<const FollowState> states() const { return states_; }
+  std::span<const FollowOrigin> origins() const { return origins_; }
 
   Result<FollowMeasures> measure() const {
     FollowMeasures measures;
@@ -123,6 +134,9 @@ class Follower::Impl {
     present_.resize(balls.size());
     states_.resize(balls.size());
     is_inside_.resize(balls.size());
+    origins_.resize(balls.size());
+    came_.resize(balls.size());
+    is_renewed_.resize(balls.size());
     vertex_normals_.resize(surface_.vertices().size());
     if (options_.rule == FollowRule::kTangent) {
       for_each_ball([&](std::size_t i) { tracked_[i] = greatest_ball(surface_, tracked_[i].a, {}); });
@@ -136,6 +150,11 @@ class Follower::Impl {
     // Of an open mesh: balls whose centres are inside may reach through a hole.
     if (options_.rule == FollowRule::kTangent) drop_outside();
     rest_ = tracked_;
+    if (options_.renewed > 0) {
+      const Result<BallUnion> measured = measure_present();
+      if (!measured) return measured.error();
+      rest_share_ = uncovered_share(measured.value());
+    }
     report();
     return {};
   }
@@ -159,7 +178,56 @@ class Follower::Impl {
       if (Status status = ascend_all(); !status) return status;
     }
     draw_to_rest();
+    return options_.renewed > 0 ? renew() : Status();
+  }
+
+  Result<BallUnion> measure_present() {
+    copy_balls(present_);
+    return measure_ball_union(present_, BallUnionOptions{options_.threads, true});
+  }
+
+  double uncovered_share(const BallUnion& balls) const { return 1 - balls.volume / surface_.volume(); }
+
+  /// Where the uncovered share has grown, balls leave for gaps.
+  Status renew() {
+    const Result<BallUnion> measured = measure_present();
+    if (!measured) return measured.error();
+    const bool has_grown = uncovered_share(measured.value()) > options_.renewal_factor * rest_share_;
+    if (!has_grown || !(rest_share_ > 0)) return {};
+    const Result<std::vector<BallExchange>> exchanges =
+        find_exchanges(surface_, present_, measured.value(), options_.renewed, options_.threads);
+    if (!exchanges) return exchanges.error();
+    for (const BallExchange& exchange : exchanges.value()) {
+      TrackedBall& tracked = tracked_[exchange.ball];
+      tracked = exchange.by;
+      tracked.rest_radius = tracked.ball.radius;
+      sides_.renew(exchange.ball, exchange.others);
+      is_renewed_[exchange.ball] = 1;
+      came_[exchange.ball] = FollowOrigin::kRenewed;
+    }
     return {};
+  }
+
+  /// Where the surface is as in the rest pose at the places that balls have left, all of them return.
+  void return_renewed() {
+    std::vector<std::pair<std::size_t, TrackedBall>> returned;
+    for (std::size_t i = 0; i < tracked_.size(); ++i) {
+      if (is_renewed_[i] == 0 || !rest_[i].has_two_contacts()) continue;
+      const double share = share_of_rest(surface_, rest_[i]);
+      if (!(share > 0)) return;
+      TrackedBall now = rest_[i];
+      now.ball.radius = 0;
+      replace(now, drawn_to_rest(surface_, rest_[i], share, now));
+      if (!(now.ball.radius > 0) || !surface_.holds(now.ball)) return;
+      returned.emplace_back(i, now);
+    }
+    if (returned.empty()) return;
+    sides_.return_to_rest();
+    for (const auto& [i, now] : returned) {
+      tracked_[i] = now;
+      is_renewed_[i] = 0;
+      came_[i] = FollowOrigin::kReturned;
+    }
   }
 
   void follow(TrackedBall& tracked) {
@@ -176,8 +244,10 @@ class Follower::Impl {
   }
 
   void draw_to_rest() {
+    if (options_.renewed > 0) return_renewed();
     std::ranges::copy(tracked_, before_.begin());
     for_each_ball([&](std::size_t i) {
+      if (is_renewed_[i] != 0) return;
       const double share = share_of_rest(surface_, rest_[i]);
       if (share > 0) replace(tracked_[i], drawn_to_rest(surface_, rest_[i], share, tracked_[i]));
     });
@@ -231,6 +301,8 @@ class Follower::Impl {
   void report() {
     copy_balls(balls_);
     std::ranges::transform(tracked_, states_.begin(), [&](const TrackedBall& tracked) { return state_of(tracked); });
+    std::ranges::copy(came_, origins_.begin());
+    std::ranges::fill(came_, FollowOrigin::kFollowed);
   }
 
   MovingSurface surface_;
@@ -243,7 +315,13 @@ class Follower::Impl {
   // By ball, in the order in which they were given; of the last frame that was completed.
   std::vector<Ball> balls_;
   std::vector<FollowState> states_;
+  std::vector<FollowOrigin> origins_;
   std::vector<std::uint8_t> is_inside_;
+
+  // Of balls that are chosen anew.
+  std::vector<FollowOrigin> came_;        // since the last frame that was completed
+  std::vector<std::uint8_t> is_renewed_;  // 1: away from its place of the rest pose
+  double rest_share_ = 0;                 // of the volume, uncovered in the rest pose
 };
 
 Follower::Follower(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -253,7 +331,7 @@ Follower::~Follower() = default;
 
 Result<Follower> Follower::create(const IndexedMesh& rest, std::span<const Ball> balls,
                                   const FollowerOptions& options) {
-  if (Status status = check_options(balls, options); !status) return status.error();
+  if (Status status = check_options(balls, options, rest.prepared().report.closed); !status) return status.error();
   return catch_out_of_memory("preparing balls to follow a mesh", [&]() -> Result<Follower> {
     Result<std::unique_ptr<Impl>> impl = Impl::create(rest, balls, options);
     if (!impl) return impl.error();
@@ -271,6 +349,7 @@ Status Follower::reset() {
 
 std::span<const Ball> Follower::balls() const { return impl_->balls(); }
 std::span<const FollowState> Follower::states() const { return impl_->states(); }
+std::span<const FollowOrigin> Follower::origins() const { return impl_->origins(); }
 
 Result<FollowMeasures> Follower::measure() const {
   return catch_out_of_memory("measuring balls that follow a mesh", [&] { return impl_->measure(); });

@@ -12,6 +12,20 @@
 namespace medial_vk::cli {
 namespace {
 
+/// When balls are chosen anew, and how many were.
+std::string renewed_text(const FollowOptions& options, const MotionRecord& record) {
+  std::size_t balls = 0, frames = 0, most = 0;
+  for (const FollowedFrame& frame : record.frames) {
+    balls += frame.renewed();
+    frames += frame.renewed() > 0 ? 1 : 0;
+    most = std::max(most, frame.renewed());
+  }
+  const std::string when = fmt::format("beyond {:g} times what is uncovered at rest", options.follower.renewal_factor);
+  if (frames == 0) return "no ball; " + when;
+  return fmt::format("{} times a ball, in {} {}, at most {} in one; {}", grouped(balls), grouped(frames),
+                     frames == 1 ? "frame" : "frames", grouped(most), when);
+}
+
 std::string rule_text(const FollowOptions& options) {
   std::string text = options.follower.rule == FollowRule::kPublished
                          ? "published: one contact, balls may reach out"
@@ -113,6 +127,7 @@ std::string follow_summary(const FollowOptions& options, const MotionRecord& rec
   if (options.follower.rule == FollowRule::kPublished && record.has_volume) {
     text += labelled("outside", outside_text(record));
   }
+  if (record.renews) text += labelled("anew", renewed_text(options, record));
   text += labelled("states", states_text(record.frames.back()));
   if (!rig.balls.empty()) text += labelled("rig", rig_text(rig));
   const auto lost = std::ranges::count(record.frames.front().states, FollowState::kLost);

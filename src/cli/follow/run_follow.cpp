@@ -146,6 +146,10 @@ class FollowRun {
         prepare_loaded(motion_->rest(), options_.rest, shared_.opening, prepare, shared_.times);
     if (!prepared) return prepared.error();
     if (Status status = check_size(prepared.value().mesh.vertices, options_.rest); !status) return status;
+    if (options_.follower.renewed > 0 && !prepared.value().report.closed) {
+      return Error{ErrorCode::kUsage,
+                   fmt::format("--renew: {} is not closed, so its uncovered volume is not known", options_.rest)};
+    }
     map_.emplace(prepared.value());
     Result<IndexedMesh> indexed = IndexedMesh::build(std::move(prepared).value(), {.threads = threads()});
     if (!indexed) return with_hint(indexed.error());
@@ -186,6 +190,7 @@ class FollowRun {
     record_.rule = options_.follower.rule == FollowRule::kPublished ? "published" : "tangent";
     record_.frames_per_second = options_.frames_per_second;
     record_.has_volume = encloses_volume(mesh_->prepared().report);
+    record_.renews = options_.follower.renewed > 0;
     record_.triangles = mesh_->prepared().mesh.triangles;
     Stopwatch stopwatch;
     const std::size_t count = motion_->frame_count();
@@ -235,6 +240,7 @@ class FollowRun {
     const Result<FollowMeasures> measures = follower_->measure();
     if (!measures) return measures.error();
     frame.measures = measures.value();
+    if (record_.renews) frame.origins.assign(follower_->origins().begin(), follower_->origins().end());
     if (writes_table(options_)) {
       if (Status status = measure_the_gap(vertices, frame); !status) return status;
     }

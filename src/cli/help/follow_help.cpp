@@ -47,6 +47,9 @@ How they follow:
       --steps N         steps of each frame towards more volume, for tangent
                         (default 1)
       --from-rest       compute each frame from rest, not from the frame before
+      --renew N         choose up to N balls of a frame anew, at gaps, where the
+                        uncovered share of the volume has grown (default 0)
+      --renew-factor F  to more than F times that at rest (default 1.5)
       --protrusion XI   for published: how far balls may reach out, as a share
                         of the longest side (default 0.0025)
       --shrunk S        a ball below S of its radius at rest counts as shrunk

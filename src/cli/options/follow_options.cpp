@@ -16,11 +16,12 @@ namespace medial_vk::cli {
 namespace {
 
 constexpr std::uint64_t kMostFollowers = 100'000;
+constexpr std::uint64_t kMostRenewed = 10'000;
 
 /// Arguments whose value does not tell whether they were given.
 struct GivenToFollow {
   std::size_t count = 0;
-  double protrusion = 0, frames_per_second = 0;
+  double protrusion = 0, frames_per_second = 0, renewal_factor = 0;
   ViewChoice view;
 };
 
@@ -38,6 +39,8 @@ void declare_follow(CLI::App& app, FollowOptions& options, GivenToFollow& given)
                          options.follower.rule);
   add.whole("--steps", 0, 100, " steps", options.follower.steps);
   add.flag("--from-rest", options.from_rest);
+  add.whole("--renew", 0, kMostRenewed, " balls", options.follower.renewed);
+  add.real("--renew-factor", {1, 1000, true}, "", given.renewal_factor);
   add.real("--protrusion", {0, 1, false}, " of the longest side", given.protrusion);
   add.real("--shrunk", {0, 1, true}, " of the radius", options.follower.shrunk);
   add.real("--object-angle", {0, std::numbers::pi / 2, true}, " radians", options.follower.object_angle);
@@ -86,6 +89,12 @@ Status check_rule(const FollowOptions& options, const GivenToFollow& given, bool
   if (!is_published && given.protrusion > 0) {
     return usage_error("--protrusion: the balls of --rule tangent never reach out; use it with --rule published");
   }
+  if (is_published && options.follower.renewed > 0) {
+    return usage_error("--renew exchanges balls of --rule tangent; those of --rule published are only those at rest");
+  }
+  if (given.renewal_factor > 0 && options.follower.renewed == 0) {
+    return usage_error("--renew-factor says when balls are chosen anew; give their greatest number, --renew N, too");
+  }
   if (is_published && options.check) {
     return usage_error("--check tests that balls are inside, which --rule published does not promise");
   }
@@ -104,6 +113,9 @@ Status check_follow_outputs(const FollowOptions& options) {
   }
   if (!options.rig.empty() && !options.frames.empty()) {
     return usage_error("--rig is about the joints of an animation; meshes have none");
+  }
+  if (!options.rig.empty() && options.follower.renewed > 0) {
+    return usage_error("--rig binds each ball to its joints in all frames; it cannot be used with --renew");
   }
   for (const std::string& input : inputs_of(options)) {
     if (Status status = check_outputs_differ(outputs_of(options), input); !status) return status;
@@ -167,6 +179,7 @@ Result<FollowOptions> FollowOptionParser::parse(const std::vector<std::string>& 
   if (!has_steps && options.follower.rule == FollowRule::kTangent) options.follower.steps = kUsualFollowSteps;
   if (given.count > 0) options.count = given.count;
   if (given.protrusion > 0) options.follower.protrusion = given.protrusion;
+  if (given.renewal_factor > 0) options.follower.renewal_factor = given.renewal_factor;
   if (given.frames_per_second > 0) options.frames_per_second = given.frames_per_second;
   if (Status status = take_view(given.view, !options.picture.empty() || !options.html.empty(), options.view); !status) {
     return status.error();

@@ -90,6 +90,8 @@ constexpr ParameterWords kParameterWords[] = {
      {},
      "--resolution",
      "--resolution"},
+    of_follow("renewal_factor", "--renew-factor"),
+    of_follow("renewed", "--renew"),
     library_only("rotation"),
     library_only("samples"),
     library_only("sheets"),

@@ -34,7 +34,8 @@ std::string volumes(const MotionRecord& record, const FollowedFrame& frame) {
 std::string encode_motion_csv(const MotionRecord& record) {
   std::string csv =
       "frame,name,time,solid_volume,ball_volume,uncovered_percent,outside_bound,gap_lower,gap_upper,medial,flat,shrunk,"
-      "lost\n";
+      "lost";
+  csv += record.renews ? ",renewed\n" : "\n";
   for (std::size_t i = 0; i < record.frames.size(); ++i) {
     const FollowedFrame& frame = record.frames[i];
     csv += fmt::format("{},{},{},{}", i, csv_value(frame.name), frame.time, volumes(record, frame));
@@ -43,6 +44,7 @@ std::string encode_motion_csv(const MotionRecord& record) {
          {FollowState::kMedial, FollowState::kFlat, FollowState::kShrunk, FollowState::kLost}) {
       csv += fmt::format(",{}", std::ranges::count(frame.states, state));
     }
+    if (record.renews) csv += fmt::format(",{}", frame.renewed());
     csv += '\n';
   }
   return csv;

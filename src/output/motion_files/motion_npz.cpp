@@ -21,7 +21,7 @@ void add_column(NpzWriter& out, const char* name, const MotionRecord& record, co
 Result<std::string> encode_motion_npz(const MotionRecord& record) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const std::size_t frames = record.frames.size(), balls = record.frames.front().balls.size();
-  std::string numbers, states;
+  std::string numbers, states, origins;
   numbers.reserve(frames * balls * 4 * sizeof(double));
   for (const FollowedFrame& frame : record.frames) {
     for (const Ball& ball : frame.balls) {
@@ -29,10 +29,12 @@ Result<std::string> encode_motion_npz(const MotionRecord& record) {
       append_little_endian(numbers, ball.radius);
     }
     for (const FollowState state : frame.states) states += static_cast<char>(state);
+    for (const FollowOrigin origin : frame.origins) origins += static_cast<char>(origin);
   }
   NpzWriter out;
   out.add("balls", kNumpyType<double>, {frames, balls, 4}, numbers);
   out.add("states", "|u1", {frames, balls}, states);
+  if (record.renews) out.add("origins", "|u1", {frames, balls}, origins);
   add_column(out, "time", record, [](const FollowedFrame& frame) { return frame.time; });
   add_column(out, "solid_volume", record,
              [&](const FollowedFrame& frame) { return record.has_volume ? frame.measures.solid_volume : kNone; });

@@ -1,5 +1,6 @@
 #include "output/motion_files/motion_record.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace medial_vk {
@@ -7,6 +8,10 @@ namespace medial_vk {
 double FollowedFrame::uncovered_percent() const {
   if (!(measures.solid_volume > 0)) return std::numeric_limits<double>::quiet_NaN();
   return 100 * measures.uncovered() / measures.solid_volume;
+}
+
+std::size_t FollowedFrame::renewed() const {
+  return static_cast<std::size_t>(std::ranges::count(origins, FollowOrigin::kRenewed));
 }
 
 const char* name_of(FollowState state) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -20,6 +21,7 @@ struct FollowedFrame {
   double time = 0;          ///< Seconds since the rest pose.
   std::vector<Ball> balls;  ///< Radius 0: lost in this frame.
   std::vector<FollowState> states;
+  std::vector<FollowOrigin> origins;  ///< Empty unless balls may be chosen anew (MotionRecord::renews).
   FollowMeasures measures;
   std::optional<Bounds> gap;  ///< The greatest distance from points of the boundary to the balls.
   /// Of the vertices of the prepared mesh, if a picture or a page shows the frame; else empty.
@@ -27,6 +29,8 @@ struct FollowedFrame {
 
   /// Per cent of the solid's volume that no ball holds (FollowMeasures::uncovered()); NaN without a volume.
   double uncovered_percent() const;
+  /// The number of balls that were chosen anew in this frame.
+  std::size_t renewed() const;
 };
 
 struct MotionRecord {
@@ -37,6 +41,7 @@ struct MotionRecord {
   /// The mesh at rest is closed, and no faces cross or lie inside: its signed volume is that of the solid, also in each
   /// frame in which no faces come to cross. Otherwise no volume is written.
   bool has_volume = false;
+  bool renews = false;                ///< Balls may be chosen anew in a frame: files say where.
   std::vector<Triangle> triangles;    ///< Of the prepared mesh.
   std::vector<FollowedFrame> frames;  ///< The rest pose first. All have the same number of balls.
 };

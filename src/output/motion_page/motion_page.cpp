@@ -23,15 +23,18 @@ NumbersOfPage number_or_null(double x) { return std::isfinite(x) ? NumbersOfPage
 NumbersOfPage numbers_of(const FollowedFrame& frame, const MotionRecord& record) {
   const auto count = [&](FollowState state) { return std::ranges::count(frame.states, state); };
   const double outside = 100 * frame.measures.outside_bound / frame.measures.solid_volume;
-  return {{"name", frame.name},
-          {"time", number_or_null(frame.time)},
-          {"uncovered", record.has_volume ? number_or_null(frame.uncovered_percent()) : NumbersOfPage()},
-          {"outside", record.has_volume ? number_or_null(outside) : NumbersOfPage()},
-          {"gap", frame.gap ? NumbersOfPage{frame.gap->lower, frame.gap->upper} : NumbersOfPage()},
-          {"medial", count(FollowState::kMedial)},
-          {"flat", count(FollowState::kFlat)},
-          {"shrunk", count(FollowState::kShrunk)},
-          {"lost", count(FollowState::kLost)}};
+  NumbersOfPage numbers = {
+      {"name", frame.name},
+      {"time", number_or_null(frame.time)},
+      {"uncovered", record.has_volume ? number_or_null(frame.uncovered_percent()) : NumbersOfPage()},
+      {"outside", record.has_volume ? number_or_null(outside) : NumbersOfPage()},
+      {"gap", frame.gap ? NumbersOfPage{frame.gap->lower, frame.gap->upper} : NumbersOfPage()},
+      {"medial", count(FollowState::kMedial)},
+      {"flat", count(FollowState::kFlat)},
+      {"shrunk", count(FollowState::kShrunk)},
+      {"lost", count(FollowState::kLost)}};
+  if (record.renews) numbers["renewed"] = frame.renewed();
+  return numbers;
 }
 
 /// The frames that the page draws.

@@ -29,6 +29,7 @@ function columnsOf(motion) {
     ...(motion.rule === 'published' ? [['outside, at most', true, (frame) => percent(frame.outside)]] : []),
     ['greatest gap', true, gap],
     ...kStates.map(({name}) => [name, true, (frame) => grouped(frame[name])]),
+    ...(motion.frames[0].renewed === undefined ? [] : [['chosen anew', true, (frame) => grouped(frame.renewed)]]),
   ];
 }
 

@@ -67,6 +67,14 @@ TEST(FollowOptions, ThePublishedRule) {
   EXPECT_EQ(parsed_follow({"r.obj", "a.obj", "--rule", "published"}).follower.protrusion, 0.0025);
 }
 
+TEST(FollowOptions, BallsChosenAnew) {
+  const FollowOptions options = parsed_follow({"r.obj", "a.obj", "--renew", "25", "--renew-factor", "1.25"});
+  EXPECT_EQ(options.follower.renewed, 25u);
+  EXPECT_EQ(options.follower.renewal_factor, 1.25);
+  EXPECT_EQ(parsed_follow({"r.obj", "a.obj", "--renew", "25"}).follower.renewal_factor, 1.5);
+  EXPECT_EQ(parsed_follow({"r.glb", "--rig", "a.json", "--renew", "0"}).follower.renewed, 0u);
+}
+
 TEST(FollowOptions, ScenesAndBalls) {
   const FollowOptions scene = parsed_follow({"d.glb", "--animation", "walk", "--balls", "b.csv"});
   EXPECT_EQ(scene.animation, "walk");
@@ -87,6 +95,9 @@ TEST(FollowOptions, WhatExcludesEachOther) {
   EXPECT_THAT(follow_message({"r.obj", "a.obj", "--rule", "published", "--steps", "0"}), HasSubstr("--steps"));
   EXPECT_THAT(follow_message({"r.obj", "a.obj", "--rule", "published", "--check"}), HasSubstr("--check"));
   EXPECT_THAT(follow_message({"r.obj", "a.obj", "--protrusion", "0.1"}), HasSubstr("--rule published"));
+  EXPECT_THAT(follow_message({"r.obj", "a.obj", "--rule", "published", "--renew", "1"}), HasSubstr("--renew"));
+  EXPECT_THAT(follow_message({"r.obj", "a.obj", "--renew-factor", "2"}), HasSubstr("--renew N"));
+  EXPECT_THAT(follow_message({"r.glb", "--rig", "a.json", "--renew", "1"}), HasSubstr("--rig"));
   EXPECT_THAT(follow_message({"r.obj", "a.obj", "-q", "-v"}), HasSubstr("-q and -v"));
   EXPECT_THAT(follow_message({"r.obj", "a.obj", "--backend", "cpu", "--device", "0"}), HasSubstr("--device"));
   EXPECT_THAT(follow_message({"r.obj", "a.obj", "--view", "top"}), HasSubstr("--picture"));
@@ -109,6 +120,8 @@ TEST(FollowOptions, Ranges) {
                                                                                       {"--count", "100001"},
                                                                                       {"--steps", "101"},
                                                                                       {"--steps", "-1"},
+                                                                                      {"--renew", "10001"},
+                                                                                      {"--renew-factor", "0.99"},
                                                                                       {"--protrusion", "1"},
                                                                                       {"--shrunk", "1.5"},
                                                                                       {"--object-angle", "2"},

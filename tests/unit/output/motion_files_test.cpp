@@ -76,6 +76,23 @@ TEST(MotionCsv, WithoutAVolumeItsPlacesAreEmpty) {
   EXPECT_EQ(encode_motion_csv(record), kNames + "0,rest,0,,6,,0,0.5,0.75,2,0,0,0\n");
 }
 
+TEST(MotionCsv, BallsChosenAnewAreCountedIfThereMayBeAny) {
+  MotionRecord record = motion_example();
+  record.renews = true;
+  for (FollowedFrame& frame : record.frames) frame.origins.assign(2, FollowOrigin::kFollowed);
+  record.frames[1].origins = {FollowOrigin::kReturned, FollowOrigin::kRenewed};
+  EXPECT_EQ(encode_motion_csv(record), kNames.substr(0, kNames.size() - 1) +
+                                           ",renewed\n"
+                                           "0,rest,0,8,6,25,0,0.5,0.75,2,0,0,0,0\n"
+                                           "1,a.obj,0.5,10,5,50,0.125,1,1.25,1,1,0,0,1\n"
+                                           "2,\"the \"\"last\"\", bent.obj\",1,16,0,100,0,,,0,0,1,1,0\n");
+  const auto arrays = read_npz(encode_motion_npz(record).value(), "motion").value();
+  EXPECT_EQ(arrays.at("origins").type, "|u1");
+  EXPECT_EQ(arrays.at("origins").shape, (std::vector<std::uint64_t>{3, 2}));
+  EXPECT_EQ(arrays.at("origins").bytes, std::string("\0\0\2\1\0\0", 6));
+  EXPECT_FALSE(read_npz(encode_motion_npz(motion_example()).value(), "motion").value().contains("origins"));
+}
+
 TEST(MotionGlb, BallsLieInsideThoseOfTheFrames) {
   const MotionRecord record = motion_example();
   const test::Glb glb = test::parse_glb(encode_motion_glb(record).value());

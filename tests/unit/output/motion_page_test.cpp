@@ -226,6 +226,14 @@ TEST_F(MotionPageBytes, HoldNumbersAndGeometry) {
   EXPECT_THAT(text, Not(HasSubstr("<!--medial-vk")));
 }
 
+TEST_F(MotionPageBytes, CountBallsChosenAnewIfThereMayBeAny) {
+  EXPECT_THAT(encode_motion_page(record_), Not(HasSubstr("\"renewed\"")));
+  record_.renews = true;
+  for (FollowedFrame& frame : record_.frames) frame.origins.assign(2, FollowOrigin::kFollowed);
+  record_.frames[1].origins[0] = FollowOrigin::kRenewed;
+  EXPECT_THAT(encode_motion_page(record_), HasSubstr("\"lost\":1,\"renewed\":1}"));
+}
+
 TEST_F(MotionPageBytes, AreTheSameTwice) { EXPECT_EQ(encode_motion_page(record_), encode_motion_page(record_)); }
 
 TEST_F(MotionPageBytes, HoldNoNumberThatIsNotKnown) {
