@@ -36,7 +36,7 @@ std::string uncovered_text(const MotionRecord& record) {
   }
   if (worst == nullptr) return "no frame has a volume";
   std::string text = fmt::format("{:.2f} % of the solid on average, {:.2f} % at most ({})",
-                                 sum / static_cast<double>(count), most, quoted(worst->name));
+                                 sum / static_cast<double>(count), most, medial_vk::quoted(worst->name));
   const double rest = record.frames.front().uncovered_percent();
   if (std::isfinite(rest)) text = fmt::format("{:.2f} % at rest, {}", rest, text);
   const std::size_t without = record.frames.size() - count;

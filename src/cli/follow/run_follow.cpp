@@ -34,7 +34,6 @@
 #include "output/page/page.h"
 #include "output/picture/motion_picture.h"
 #include "output/picture/panels/image.h"
-#include "output/rig_files/rig_json.h"
 #include "reference_bridge/check_balls.h"
 
 namespace medial_vk::cli {
@@ -109,9 +108,7 @@ class FollowRun {
     shared_.progress.clear();
     if (!motion) return motion.error();
     motion_ = std::move(motion).value();
-    if (!options_.rig.empty() && motion_->rig() == nullptr) {
-      return Error{ErrorCode::kUsage, "--rig is about the joints of an animation; meshes have none"};
-    }
+    if (Status status = check_rig_file(options_, *motion_); !status) return status;
     shared_.times.push_back({"read", stopwatch.lap()});
     return {};
   }
@@ -121,6 +118,7 @@ class FollowRun {
       AnimationOptions animation;
       animation.animation = options_.animation;
       animation.frames_per_second = options_.frames_per_second;
+      animation.keep_source = rig_has_nodes(options_);
       return open_animation(options_.rest, animation);
     }
     std::vector<std::string> frames;
@@ -281,7 +279,8 @@ class FollowRun {
   Status rig() {
     if (options_.rig.empty()) return {};
     Stopwatch stopwatch;
-    Result<BallRig> bound = rig_balls(*motion_, rigged_, *map_, *mesh_, threads(),
+    const BallBinding binding = rig_has_nodes(options_) ? BallBinding::kOneJoint : BallBinding::kBlended;
+    Result<BallRig> bound = rig_balls(*motion_, rigged_, *map_, binding, *mesh_, threads(),
                                       [&](double done) { shared_.progress.update("rig", done); });
     shared_.progress.clear();
     if (!bound) return bound.error();
@@ -300,7 +299,10 @@ class FollowRun {
       files_.push_back({output, std::move(bytes).value()});
     }
     if (!options_.rig.empty()) {
-      files_.push_back({options_.rig, encode_rig({record_.version, record_.name, *motion_->rig(), rig_})});
+      Result<std::string> bytes =
+          encode_rig_as(options_.rig, {record_.version, record_.name, *motion_->rig(), rig_}, motion_->source());
+      if (!bytes) return bytes.error();
+      files_.push_back({options_.rig, std::move(bytes).value()});
     }
     if (options_.picture.empty() && options_.html.empty()) return {};
     shared_.progress.update("picture", 0);
