@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
-#include "cli/follow/rest_mesh.h"
 #include "cli/options/follow_options.h"
+#include "cli/shared/rest_mesh.h"
 #include "medial_vk/indexed_mesh.h"
 #include "medial_vk/result.h"
 #include "motion_files/mesh_motion.h"

@@ -77,11 +77,6 @@ std::string rig_text(const BallRig& rig) {
 
 }  // namespace
 
-bool encloses_volume(const MeshReport& report) {
-  return report.closed && report.intersecting_faces == 0 && report.intersections_known && report.faces_within == 0 &&
-         report.faces_without == 0;
-}
-
 std::string follow_opening(const FollowOptions& options, const MeshReport& report, std::uint64_t frames,
                            std::uint64_t separable) {
   std::string text = fmt::format("{}: {} triangles, {}; {} {}\n", options.rest == "-" ? "standard input" : options.rest,

@@ -15,10 +15,10 @@
 #include "cli/follow/follow_balls.h"
 #include "cli/follow/follow_rig.h"
 #include "cli/follow/follow_summary.h"
-#include "cli/follow/rest_mesh.h"
 #include "cli/help/help_texts.h"
 #include "cli/options/follow_options.h"
 #include "cli/shared/load.h"
+#include "cli/shared/rest_mesh.h"
 #include "cli/shared/shared_of_run.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/messages.h"
@@ -26,7 +26,6 @@
 #include "common/file_extension.h"
 #include "medial_vk/sphere_proofs.h"
 #include "medial_vk/version.h"
-#include "motion_files/frame_patterns.h"
 #include "motion_files/mesh_motion.h"
 #include "output/atomic_files/atomic_file.h"
 #include "output/motion_files/motion_files.h"
@@ -121,20 +120,12 @@ class FollowRun {
       animation.keep_source = rig_has_nodes(options_);
       return open_animation(options_.rest, animation);
     }
-    std::vector<std::string> frames;
-    for (const std::string& frame : options_.frames) {
-      if (!is_frame_pattern(frame)) {
-        frames.push_back(frame);
-        continue;
-      }
-      Result<std::vector<std::string>> files = files_of_pattern(frame);
-      if (!files) return files.error();
-      frames.insert(frames.end(), files.value().begin(), files.value().end());
-    }
-    for (const std::string& frame : frames) {
+    Result<std::vector<std::string>> files = files_of_frames(options_.frames);
+    if (!files) return files.error();
+    for (const std::string& frame : files.value()) {
       if (Status status = check_outputs_differ(outputs_of(options_), frame); !status) return status.error();
     }
-    return open_mesh_files(options_.rest, std::move(frames));
+    return open_mesh_files(options_.rest, std::move(files).value());
   }
 
   /// Faces inside the solid stay: cuts along crossings would make vertices that no frame has.
