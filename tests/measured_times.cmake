@@ -18,6 +18,8 @@ set(times
   "property.Foam.BoundsWidthAndDepth" 13
   "property.SphereCover.CoversEverySolidWithAnyNumber" 13
   "analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/capsule_16x" 12
+  "picture.Renderer.DrawsBallsOfAMeshThatDeformsSearchedAndFollowed" 12
+  "host.renderer" 10
   "analytic.Smooth/Tessellation.MedialSurfaceIsThatOfTheSmoothSolid/torus_16x" 12
   "counts.WorkCounts.AFitOfSpheresBuildsOneTreeAndUploadsOnce" 12
   "property.SphereCover.MoreBallsAreNeverWorse" 12
@@ -91,13 +93,11 @@ set(times
   "faults.MemoryBudget.HoldsForTheCertifiedSearch" 3
   "gpu_vs_cpu.TreeQueriesTest.Fluxes" 3
   "gpu_vs_cpu.TreeThesisTest.FindsWhatTheReferenceFinds" 3
-  "host.renderer" 3
   "page.focus_is_seen" 3
   "page.nothing_moves" 3
   "page.pick" 3
   "page.report" 3
   "picture.Readme.PictureIsCurrent" 3
-  "picture.Renderer.DrawsTheSpheresOfAMeshThatDeforms" 3
   "property.Mutations.AreRefusedOrCertifiedAndAgreeWithTheReference/2" 3
   "property.Solids/DismissalOfSolids.LosesNoSalientSample/flat_torus" 3
   "property.Solids/DismissalOfSolids.LosesNoSalientSample/triaxial" 3

@@ -1,8 +1,9 @@
 #include "forward_pass.h"
 
-#include <array>
 #include <cstddef>
+#include <utility>
 
+#include "followed.vert.h"
 #include "mesh.frag.h"
 #include "mesh.vert.h"
 #include "sphere.frag.h"
@@ -15,16 +16,31 @@ constexpr VkShaderStageFlags kStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_ST
 
 }  // namespace
 
-ForwardPass::ForwardPass(const VulkanHost& host, VkExtent2D size, const medial_vk::JobBuffers& spheres)
-    : host_(host), size_(size) {
+DrawnBalls searched_balls(const medial_vk::JobBuffers& job) {
+  return {false, {job.spheres, VK_NULL_HANDLE, VK_NULL_HANDLE}, job.counts, 0};
+}
+
+DrawnBalls followed_balls(const medial_vk::FollowerBuffers& job, VkBuffer angles, std::uint32_t count) {
+  return {true, {job.balls, job.states, angles}, VK_NULL_HANDLE, count};
+}
+
+ForwardPass::ForwardPass(const VulkanHost& host, VkExtent2D panel, std::vector<DrawnBalls> balls)
+    : host_(host),
+      panel_(panel),
+      size_{panel.width * static_cast<std::uint32_t>(balls.size()), panel.height},
+      balls_(std::move(balls)) {
   create_target();
-  create_layouts(spheres);
-  spheres_ = create_pipeline(false);
-  mesh_ = create_pipeline(true);
+  create_layouts();
+  create_sets();
+  mesh_ = create_pipeline(Kind::kMesh);
+  for (const DrawnBalls& drawn : balls_) {
+    pipelines_.push_back(create_pipeline(drawn.are_followed ? Kind::kFollowed : Kind::kSearched));
+  }
 }
 
 ForwardPass::~ForwardPass() {
-  for (const VkPipeline pipeline : {spheres_, mesh_}) vkDestroyPipeline(host_.device, pipeline, nullptr);
+  for (const VkPipeline pipeline : pipelines_) vkDestroyPipeline(host_.device, pipeline, nullptr);
+  vkDestroyPipeline(host_.device, mesh_, nullptr);
   vkDestroyPipelineLayout(host_.device, layout_, nullptr);
   vkDestroyDescriptorPool(host_.device, pool_, nullptr);
   vkDestroyDescriptorSetLayout(host_.device, set_layout_, nullptr);
@@ -92,34 +108,15 @@ void ForwardPass::create_target() {
   check(vkCreateFramebuffer(host_.device, &framebuffer, nullptr, &framebuffer_), "vkCreateFramebuffer");
 }
 
-void ForwardPass::create_layouts(const medial_vk::JobBuffers& spheres) {
-  const VkDescriptorSetLayoutBinding binding = {0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_VERTEX_BIT,
-                                                nullptr};
+void ForwardPass::create_layouts() {
+  std::array<VkDescriptorSetLayoutBinding, 3> bindings{};
+  for (std::uint32_t i = 0; i < bindings.size(); ++i) {
+    bindings[i] = {i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_VERTEX_BIT, nullptr};
+  }
   auto layout = vulkan_struct<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
-  layout.bindingCount = 1;
-  layout.pBindings = &binding;
+  layout.bindingCount = static_cast<std::uint32_t>(bindings.size());
+  layout.pBindings = bindings.data();
   check(vkCreateDescriptorSetLayout(host_.device, &layout, nullptr, &set_layout_), "vkCreateDescriptorSetLayout");
-
-  const VkDescriptorPoolSize size = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1};
-  auto pool = vulkan_struct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
-  pool.maxSets = 1;
-  pool.poolSizeCount = 1;
-  pool.pPoolSizes = &size;
-  check(vkCreateDescriptorPool(host_.device, &pool, nullptr, &pool_), "vkCreateDescriptorPool");
-  auto allocation = vulkan_struct<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
-  allocation.descriptorPool = pool_;
-  allocation.descriptorSetCount = 1;
-  allocation.pSetLayouts = &set_layout_;
-  check(vkAllocateDescriptorSets(host_.device, &allocation, &set_), "vkAllocateDescriptorSets");
-  // The vertex shader reads the buffer that the job writes.
-  const VkDescriptorBufferInfo range = {spheres.spheres, 0, spheres.sphere_bytes};
-  auto write = vulkan_struct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
-  write.dstSet = set_;
-  write.descriptorCount = 1;
-  write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-  write.pBufferInfo = &range;
-  vkUpdateDescriptorSets(host_.device, 1, &write, 0, nullptr);
-
   const VkPushConstantRange constants = {kStages, 0, sizeof(FrameConstants)};
   auto info = vulkan_struct<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
   info.setLayoutCount = 1;
@@ -127,6 +124,37 @@ void ForwardPass::create_layouts(const medial_vk::JobBuffers& spheres) {
   info.pushConstantRangeCount = 1;
   info.pPushConstantRanges = &constants;
   check(vkCreatePipelineLayout(host_.device, &info, nullptr, &layout_), "vkCreatePipelineLayout");
+}
+
+// The vertex shaders read the buffers that the jobs write.
+void ForwardPass::create_sets() {
+  const auto panels = static_cast<std::uint32_t>(balls_.size());
+  const VkDescriptorPoolSize size = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 3 * panels};
+  auto pool = vulkan_struct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
+  pool.maxSets = panels;
+  pool.poolSizeCount = 1;
+  pool.pPoolSizes = &size;
+  check(vkCreateDescriptorPool(host_.device, &pool, nullptr, &pool_), "vkCreateDescriptorPool");
+  const std::vector<VkDescriptorSetLayout> layouts(panels, set_layout_);
+  sets_.resize(panels);
+  auto allocation = vulkan_struct<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
+  allocation.descriptorPool = pool_;
+  allocation.descriptorSetCount = panels;
+  allocation.pSetLayouts = layouts.data();
+  check(vkAllocateDescriptorSets(host_.device, &allocation, sets_.data()), "vkAllocateDescriptorSets");
+  for (std::size_t panel = 0; panel < balls_.size(); ++panel) {
+    for (std::uint32_t binding = 0; binding < balls_[panel].buffers.size(); ++binding) {
+      const VkDescriptorBufferInfo range = {balls_[panel].buffers[binding], 0, VK_WHOLE_SIZE};
+      if (range.buffer == VK_NULL_HANDLE) continue;
+      auto write = vulkan_struct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
+      write.dstSet = sets_[panel];
+      write.dstBinding = binding;
+      write.descriptorCount = 1;
+      write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+      write.pBufferInfo = &range;
+      vkUpdateDescriptorSets(host_.device, 1, &write, 0, nullptr);
+    }
+  }
 }
 
 VkShaderModule ForwardPass::create_shader(const std::uint32_t* code, std::size_t bytes) const {
@@ -138,20 +166,29 @@ VkShaderModule ForwardPass::create_shader(const std::uint32_t* code, std::size_t
   return shader;
 }
 
-// long: all state of a pipeline, one member after the other.
-VkPipeline ForwardPass::create_pipeline(bool translucent_mesh) const {
+std::array<VkPipelineShaderStageCreateInfo, 2> ForwardPass::create_stages(Kind kind) const {
   std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
   for (VkPipelineShaderStageCreateInfo& stage : stages) {
     stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
     stage.pName = "main";
   }
   stages[0].stage = VK_SHADER_STAGE_VERTEX_BIT;
-  stages[0].module =
-      translucent_mesh ? create_shader(kMeshVert, sizeof(kMeshVert)) : create_shader(kSphereVert, sizeof(kSphereVert));
   stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
-  stages[1].module =
-      translucent_mesh ? create_shader(kMeshFrag, sizeof(kMeshFrag)) : create_shader(kSphereFrag, sizeof(kSphereFrag));
+  if (kind == Kind::kMesh) {
+    stages[0].module = create_shader(kMeshVert, sizeof(kMeshVert));
+    stages[1].module = create_shader(kMeshFrag, sizeof(kMeshFrag));
+  } else {
+    stages[0].module = kind == Kind::kSearched ? create_shader(kSphereVert, sizeof(kSphereVert))
+                                               : create_shader(kFollowedVert, sizeof(kFollowedVert));
+    stages[1].module = create_shader(kSphereFrag, sizeof(kSphereFrag));
+  }
+  return stages;
+}
 
+// long: all state of a pipeline, one member after the other.
+VkPipeline ForwardPass::create_pipeline(Kind kind) const {
+  const bool translucent_mesh = kind == Kind::kMesh;
+  const std::array<VkPipelineShaderStageCreateInfo, 2> stages = create_stages(kind);
   const VkVertexInputBindingDescription binding = {0, 6 * sizeof(float), VK_VERTEX_INPUT_RATE_VERTEX};
   const std::array<VkVertexInputAttributeDescription, 2> attributes = {
       {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0}, {1, 0, VK_FORMAT_R32G32B32_SFLOAT, 3 * sizeof(float)}}};
@@ -166,13 +203,14 @@ VkPipeline ForwardPass::create_pipeline(bool translucent_mesh) const {
   auto assembly = vulkan_struct<VkPipelineInputAssemblyStateCreateInfo>(
       VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO);
   assembly.topology = translucent_mesh ? VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST : VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP;
-  const VkViewport viewport = {0, 0, static_cast<float>(size_.width), static_cast<float>(size_.height), 0, 1};
-  const VkRect2D scissor = {{0, 0}, size_};
+  // The place of a panel is set while it is recorded.
+  constexpr std::array<VkDynamicState, 2> kPlaces = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+  auto dynamic = vulkan_struct<VkPipelineDynamicStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO);
+  dynamic.dynamicStateCount = static_cast<std::uint32_t>(kPlaces.size());
+  dynamic.pDynamicStates = kPlaces.data();
   auto area = vulkan_struct<VkPipelineViewportStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO);
   area.viewportCount = 1;
-  area.pViewports = &viewport;
   area.scissorCount = 1;
-  area.pScissors = &scissor;
   auto raster =
       vulkan_struct<VkPipelineRasterizationStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO);
   raster.cullMode = translucent_mesh ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
@@ -211,6 +249,7 @@ VkPipeline ForwardPass::create_pipeline(bool translucent_mesh) const {
   info.pMultisampleState = &samples;
   info.pDepthStencilState = &depth;
   info.pColorBlendState = &blending;
+  info.pDynamicState = &dynamic;
   info.layout = layout_;
   info.renderPass = pass_;
   VkPipeline pipeline = VK_NULL_HANDLE;
@@ -221,8 +260,27 @@ VkPipeline ForwardPass::create_pipeline(bool translucent_mesh) const {
   return pipeline;
 }
 
+void ForwardPass::draw_panel(VkCommandBuffer commands, std::size_t panel, const DrawnMesh& mesh) const {
+  const auto left = static_cast<std::uint32_t>(panel) * panel_.width;
+  const VkViewport viewport = {static_cast<float>(left),          0, static_cast<float>(panel_.width),
+                               static_cast<float>(panel_.height), 0, 1};
+  const VkRect2D scissor = {{static_cast<std::int32_t>(left), 0}, panel_};
+  vkCmdSetViewport(commands, 0, 1, &viewport);
+  vkCmdSetScissor(commands, 0, 1, &scissor);
+  const DrawnBalls& balls = balls_[panel];
+  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_[panel]);
+  vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 1, &sets_[panel], 0, nullptr);
+  if (balls.arguments != VK_NULL_HANDLE) {
+    vkCmdDrawIndirect(commands, balls.arguments, 0, 1, sizeof(medial_vk::RecordedCounts));
+  } else {
+    vkCmdDraw(commands, 4, balls.count, 0, 0);
+  }
+  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, mesh_);
+  vkCmdDrawIndexed(commands, mesh.index_count, 1, 0, 0, 0);
+}
+
 void ForwardPass::record(VkCommandBuffer commands, const FrameConstants& constants, const DrawnMesh& mesh,
-                         const medial_vk::JobBuffers& spheres, VkBuffer pixels) const {
+                         VkBuffer pixels) const {
   std::array<VkClearValue, 2> clear{};
   clear[0].color = {{0.93f, 0.94f, 0.95f, 1}};
   clear[1].depthStencil = {1, 0};
@@ -234,14 +292,10 @@ void ForwardPass::record(VkCommandBuffer commands, const FrameConstants& constan
   begin.pClearValues = clear.data();
   vkCmdBeginRenderPass(commands, &begin, VK_SUBPASS_CONTENTS_INLINE);
   vkCmdPushConstants(commands, layout_, kStages, 0, sizeof(constants), &constants);
-  vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 1, &set_, 0, nullptr);
-  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, spheres_);
-  vkCmdDrawIndirect(commands, spheres.counts, 0, 1, sizeof(medial_vk::RecordedCounts));
-  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, mesh_);
   const VkDeviceSize zero = 0;
   vkCmdBindVertexBuffers(commands, 0, 1, &mesh.vertices, &zero);
   vkCmdBindIndexBuffer(commands, mesh.indices, 0, VK_INDEX_TYPE_UINT32);
-  vkCmdDrawIndexed(commands, mesh.index_count, 1, 0, 0, 0);
+  for (std::size_t panel = 0; panel < balls_.size(); ++panel) draw_panel(commands, panel, mesh);
   vkCmdEndRenderPass(commands);
 
   VkBufferImageCopy region{};

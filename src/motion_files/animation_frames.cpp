@@ -58,16 +58,19 @@ Result<FrameTimes> frame_times(const AnimationOptions& options, double first_key
 
 class AnimationMotion : public MeshMotion {
  public:
-  AnimationMotion(std::string name, GltfNodes nodes, MovingMesh mesh, GltfAnimation animation, const FrameTimes& times)
+  AnimationMotion(std::string name, GltfNodes nodes, MovingMesh mesh, GltfAnimation animation, const FrameTimes& times,
+                  std::optional<GltfSource> source)
       : name_(std::move(name)),
         nodes_(std::move(nodes)),
         mesh_(std::move(mesh)),
         animation_(std::move(animation)),
-        times_(times) {}
+        times_(times),
+        source_(std::move(source)) {}
 
   const Mesh& rest() const override { return mesh_.rest(); }
   std::uint64_t frame_count() const override { return times_.count; }
   const MotionRig* rig() const override { return &mesh_.rig(); }
+  const GltfSource* source() const override { return source_ ? &*source_ : nullptr; }
   std::uint64_t separable_vertices() const override { return mesh_.separable_vertices(); }
 
   Status read_frame(std::uint64_t index, MotionFrame& frame) const override {
@@ -99,6 +102,7 @@ class AnimationMotion : public MeshMotion {
   MovingMesh mesh_;
   GltfAnimation animation_;
   FrameTimes times_;
+  std::optional<GltfSource> source_;
 };
 
 /// Why no animation was found.
@@ -127,8 +131,10 @@ Result<std::unique_ptr<MeshMotion>> read_animation(std::string bytes, const std:
   GltfAnimation animation = gltf_animation_of(document, accessors, nodes, mesh, *index);
   const Result<FrameTimes> times = frame_times(options, animation.start, animation.end);
   if (!times) return Error{times.error().code, fmt::format("{}: {}", name, times.error().message)};
-  return std::unique_ptr<MeshMotion>(
-      std::make_unique<AnimationMotion>(name, std::move(nodes), std::move(mesh), std::move(animation), times.value()));
+  std::optional<GltfSource> source;
+  if (options.keep_source) source = {std::string(document.text()), std::string(document.binary())};
+  return std::unique_ptr<MeshMotion>(std::make_unique<AnimationMotion>(
+      name, std::move(nodes), std::move(mesh), std::move(animation), times.value(), std::move(source)));
 }
 
 }  // namespace

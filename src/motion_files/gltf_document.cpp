@@ -102,10 +102,10 @@ double number_of_json(const Json& value) {
 GltfDocument::GltfDocument(std::string bytes, const std::string& path) : bytes_(std::move(bytes)) {
   if (!path.empty()) folder_ = folder_of_scene(path);
   size_ = bytes_.size();
-  std::string_view text = bytes_;
-  if (text.starts_with("glTF")) text = split_glb();
-  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-  root_ = Json::parse(text.begin(), text.end(), nullptr, false);
+  text_ = bytes_;
+  if (text_.starts_with("glTF")) text_ = split_glb();
+  if (text_.starts_with("\xef\xbb\xbf")) text_.remove_prefix(3);
+  root_ = Json::parse(text_.begin(), text_.end(), nullptr, false);
   if (!root_.is_object()) throw GltfFault{"its JSON is broken"};
   const std::string version = text_in(member("asset"), "version");
   if (!version.starts_with("2.")) throw GltfFault{fmt::format("its version is {}, not 2", medial_vk::quoted(version))};

@@ -33,6 +33,9 @@ class GltfDocument {
   /// A member of the document; an empty object if it is missing.
   const Json& member(const char* key) const;
 
+  /// The text of the JSON, and the binary chunk of a GLB.
+  std::string_view text() const { return text_; }
+  std::string_view binary() const { return binary_; }
   /// The bytes of a buffer, at least as many as it declares. They are loaded once.
   std::string_view buffer(std::uint64_t index);
   /// Of the document and of all buffers that were loaded.
@@ -45,6 +48,7 @@ class GltfDocument {
 
   std::string bytes_;
   std::string folder_;
+  std::string_view text_;
   std::string_view binary_;  // of a GLB
   Json root_;
   std::map<std::uint64_t, std::string_view> buffers_;  // by index

@@ -26,6 +26,7 @@ struct RigJoint {
   static constexpr std::uint32_t kNone = 0xffffffffu;
 
   std::string name;              ///< As in the file: any bytes; may be empty, and need not differ from others.
+  std::uint32_t node = 0;        ///< Its index in the file.
   std::uint32_t parent = kNone;  ///< The joint above it, among those of the rig; kNone: none. It may come later.
   AffineMap inverse_bind;        ///< From the frame of the mesh to that of the joint. Of a node: the identity.
   AffineMap rest;                ///< From the frame of the joint to that of the scene, at rest.
@@ -55,6 +56,11 @@ struct MotionRig {
   }
 };
 
+/// The glTF file of an animation, as it was read: its JSON, and the binary chunk of a GLB.
+struct GltfSource {
+  std::string json, binary;
+};
+
 struct MotionFrame {
   std::string name;               ///< The path of its file; of an animation its name, any bytes, and the time.
   std::optional<double> time;     ///< In seconds, of an animation.
@@ -76,6 +82,8 @@ class MeshMotion {
   virtual Status read_frame(std::uint64_t index, MotionFrame& frame) const = 0;
   /// Of an animation; null for mesh files.
   virtual const MotionRig* rig() const { return nullptr; }
+  /// Of an animation, with AnimationOptions::keep_source; otherwise null.
+  virtual const GltfSource* source() const { return nullptr; }
   /// How many vertices at rest stand for several of the file that other joints, weights or shapes move, so that they
   /// may separate in a frame; such a vertex moves with the first of them.
   virtual std::uint64_t separable_vertices() const { return 0; }
@@ -94,6 +102,7 @@ struct AnimationOptions {
   std::optional<double> end = {};    ///< Without it: the time of the last key.
   /// The most corners and vertices, and weights of joints, that all instances of all meshes have together.
   std::uint64_t most_values = 2 * kMostSceneCorners;
+  bool keep_source = false;  ///< For MeshMotion::source().
 };
 
 /// The frames of an animation in a glTF or GLB file; "-" is standard input. At rest the mesh is that of

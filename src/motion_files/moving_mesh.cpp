@@ -197,8 +197,8 @@ MovingMesh::MovingMesh(const GltfDocument& document, GltfAccessors& accessors, c
 std::uint32_t MovingMesh::add_joint(const GltfNodes& nodes, std::uint64_t group, std::uint64_t node,
                                     const AffineMap& inverse_bind) {
   const auto joint = static_cast<std::uint32_t>(rig_.joints.size());
-  rig_.joints.push_back({nodes[node].name, RigJoint::kNone, inverse_bind, rest_places_[node]});
-  node_of_joint_.push_back(static_cast<std::uint32_t>(node));
+  rig_.joints.push_back(
+      {nodes[node].name, static_cast<std::uint32_t>(node), RigJoint::kNone, inverse_bind, rest_places_[node]});
   group_of_joint_.push_back(group);
   joint_of_.try_emplace({group, node}, joint);
   rest_maps_.push_back(rest_places_[node] * inverse_bind);
@@ -241,7 +241,7 @@ void MovingMesh::find_parents(const GltfNodes& nodes) {
     if (above != GltfNode::kNone) nearest[node] = any_of.contains(above) ? above : nearest[above];
   }
   for (std::uint32_t joint = 0; joint < rig_.joints.size(); ++joint) {
-    const std::uint32_t above = nearest[node_of_joint_[joint]];
+    const std::uint32_t above = nearest[rig_.joints[joint].node];
     if (above == GltfNode::kNone) continue;
     const auto same = joint_of_.find({group_of_joint_[joint], above});
     rig_.joints[joint].parent = same != joint_of_.end() ? same->second : any_of.at(above);
@@ -250,7 +250,7 @@ void MovingMesh::find_parents(const GltfNodes& nodes) {
 
 std::vector<std::uint8_t> MovingMesh::nodes_that_carry(const GltfNodes& nodes) const {
   std::vector<std::uint8_t> carry(nodes.size());
-  for (const RigInfluence& influence : rig_.influences) carry[node_of_joint_[influence.joint]] = 1;
+  for (const RigInfluence& influence : rig_.influences) carry[rig_.joints[influence.joint].node] = 1;
   for (std::uint32_t node = 0; node < nodes.size(); ++node) {
     if (carry[node] != 1) continue;
     for (std::uint32_t above = nodes[node].parent; above != GltfNode::kNone && carry[above] == 0;
@@ -266,7 +266,7 @@ void MovingMesh::place_vertices(std::span<const AffineMap> places, std::span<con
   joints.resize(rig_.joints.size());
   std::vector<AffineMap> maps(rig_.joints.size());
   for (std::size_t i = 0; i < joints.size(); ++i) {
-    joints[i] = places[node_of_joint_[i]];
+    joints[i] = places[rig_.joints[i].node];
     maps[i] = joints[i] * rig_.joints[i].inverse_bind;
   }
   positions.resize(rest_.vertices.size());

@@ -58,11 +58,10 @@ class MovingMesh {
   Mesh rest_;
   MotionRig rig_;
   std::vector<Part> parts_;
-  std::vector<Source> sources_;               // by vertex, in the mesh of its part
-  std::vector<AffineMap> rest_places_;        // by node
-  std::vector<AffineMap> rest_maps_;          // by joint: from the mesh to the scene, at rest
-  std::vector<std::uint8_t> is_reflection_;   // by joint, of its map at rest
-  std::vector<std::uint32_t> node_of_joint_;  // by joint
+  std::vector<Source> sources_;              // by vertex, in the mesh of its part
+  std::vector<AffineMap> rest_places_;       // by node
+  std::vector<AffineMap> rest_maps_;         // by joint: from the mesh to the scene, at rest
+  std::vector<std::uint8_t> is_reflection_;  // by joint, of its map at rest
   std::vector<std::uint64_t> group_of_joint_;
   std::map<std::pair<std::uint64_t, std::uint64_t>, std::uint32_t> joint_of_;  // by group and node
   std::map<std::uint64_t, std::pair<std::uint32_t, std::uint32_t>> skins_;     // the first joint, and their number

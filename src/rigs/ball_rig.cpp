@@ -88,8 +88,17 @@ Eigen::MatrixXd offsets_of(std::span<const RiggedFrame> frames, std::size_t ball
   return offsets;
 }
 
+/// The first joint for which the sum of the squares of the offsets is least.
+Eigen::VectorXd nearest_joint(const Eigen::MatrixXd& offsets) {
+  Eigen::Index nearest = 0;
+  for (Eigen::Index j = 1; j < offsets.cols(); ++j) {
+    if (offsets.col(j).squaredNorm() < offsets.col(nearest).squaredNorm()) nearest = j;
+  }
+  return Eigen::VectorXd::Unit(offsets.cols(), nearest);
+}
+
 RigBall bind_ball(const MotionRig& rig, std::span<const Point> vertices, std::span<const RiggedFrame> frames,
-                  std::size_t i) {
+                  BallBinding binding, std::size_t i) {
   const Ball& at_rest = frames.front().balls[i];
   RigBall ball;
   ball.rest_radius = ball.radius = at_rest.radius;
@@ -102,7 +111,8 @@ RigBall bind_ball(const MotionRig& rig, std::span<const Point> vertices, std::sp
     ball.radius = 0;
     return ball;
   }
-  const Eigen::VectorXd weights = blend_weights(offsets_of(frames, i, joints));
+  const Eigen::MatrixXd offsets = offsets_of(frames, i, joints);
+  const Eigen::VectorXd weights = binding == BallBinding::kOneJoint ? nearest_joint(offsets) : blend_weights(offsets);
   for (std::size_t j = 0; j < joints.size(); ++j) {
     joints[j].weight = weights[static_cast<Eigen::Index>(j)];
     if (joints[j].weight > 0) ball.joints.push_back(joints[j]);
@@ -119,12 +129,12 @@ double BallRig::greatest_reach_out() const {
 }
 
 BallRig bind_balls(const MotionRig& rig, std::span<const Point> vertices, std::span<const RiggedFrame> frames,
-                   const std::function<bool(double)>& goes_on) {
+                   BallBinding binding, const std::function<bool(double)>& goes_on) {
   BallRig bound;
   const std::size_t count = frames.front().balls.size();
   for (std::size_t i = 0; i < count; ++i) {
     if (!goes_on(static_cast<double>(i) / static_cast<double>(count))) break;
-    bound.balls.push_back(bind_ball(rig, vertices, frames, i));
+    bound.balls.push_back(bind_ball(rig, vertices, frames, binding, i));
   }
   return bound;
 }

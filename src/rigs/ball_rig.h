@@ -14,6 +14,12 @@ namespace medial_vk {
 /// The greatest number of joints of a ball: that of a vertex in most engines.
 constexpr std::size_t kMostInfluences = 4;
 
+/// What moves a ball.
+enum class BallBinding : std::uint8_t {
+  kBlended,   ///< Up to kMostInfluences joints, as a vertex.
+  kOneJoint,  ///< One joint, as a node below it.
+};
+
 /// A joint of a ball.
 struct BallJoint {
   std::uint32_t joint = 0;
@@ -47,10 +53,10 @@ struct RiggedFrame {
 
 /// Binds balls to the joints: of those that move the surface near a ball at rest, up to kMostInfluences, with the
 /// weights for which the centre comes nearest to that of the ball that follows the mesh, in the least squares over all
-/// frames. At rest both are the same. `frames` begins with the rest pose; `vertices` are those of the mesh there, as
+/// frames; or to that one of them with which it comes nearest. At rest both are the same. `frames` begins with the rest pose; `vertices` are those of the mesh there, as
 /// the rig has them. The radii are still to be limited. `goes_on` gets the finished share and returns false to stop.
 BallRig bind_balls(const MotionRig& rig, std::span<const Point> vertices, std::span<const RiggedFrame> frames,
-                   const std::function<bool(double)>& goes_on);
+                   BallBinding binding, const std::function<bool(double)>& goes_on);
 
 /// The centres of the balls with the joints of a frame.
 std::vector<Point> posed_centres(const BallRig& rig, std::span<const AffineMap> joints);

@@ -46,6 +46,10 @@ void require_usable(const cli::SpheresOptions& options) {
   require(!(options.quiet && options.verbose), "-q and -v exclude each other");
   require(!options.check || options.spheres.contract != SphereContract::kBalanced,
           "only a contract that can be proved is checked");
+  require(options.frames.empty() || (options.spheres.contract == SphereContract::kInside && !options.both &&
+                                     !options.is_robot && options.spheres.count > 0),
+          "only balls inside one mesh follow a motion");
+  require(options.animation.empty() || !options.frames.empty(), "an animation has frames");
   require(options.is_robot || (options.packages.empty() && !options.visual), "a mesh has no links");
   require(!options.is_robot || options.histogram.empty(), "a histogram is of one mesh");
   require(std::ranges::any_of(options.view.towards, [](double x) { return x != 0; }), "--view is a direction");

@@ -90,7 +90,7 @@ def outputs_of(words):
     if program == "node":
         return arguments[2:3]
     files = [b for a, b in zip(arguments, arguments[1:])
-             if a in ("-o", "--output", "--html", "--picture", "--report", "--histogram", "--write-srdf")]
+             if a in ("-o", "--output", "--html", "--picture", "--report", "--histogram", "--write-srdf", "--rig")]
     if arguments[:1] in (["distance"], ["clearance"]):
         return files
     if arguments[:1] == ["follow"]:
@@ -99,6 +99,8 @@ def outputs_of(words):
     meshes = [a for a in arguments if re.search(r"\.(obj|stl|ply)$", a) and a not in files]
     if arguments[:1] == ["spheres"]:
         robots = [a for a in arguments if a.endswith(".urdf") and a not in files]
+        if "--frames" in arguments:  # the others are frames
+            meshes = meshes[:1]
         if not {"-o", "--output"} & set(arguments):
             both = "both" in words and words[words.index("both") - 1] == "--contract"
             ending = ".spheres.urdf" if robots else ".body.npz" if both else ".spheres.csv"

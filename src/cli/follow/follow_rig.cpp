@@ -1,11 +1,16 @@
 #include "cli/follow/follow_rig.h"
 
+#include <fmt/format.h>
+
 #include <cstddef>
+#include <filesystem>
 #include <utility>
 
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/messages.h"
+#include "common/file_extension.h"
 #include "medial_vk/sphere_proofs.h"
+#include "output/rig_files/rig_gltf.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -29,6 +34,28 @@ Status prove_frame(const RiggedFrame& frame, const std::vector<Point>& vertices,
 
 }  // namespace
 
+Status check_rig_file(const FollowOptions& options, const MeshMotion& motion) {
+  if (options.rig.empty()) return {};
+  if (motion.rig() == nullptr) {
+    return Error{ErrorCode::kUsage, "--rig is about the joints of an animation; meshes have none"};
+  }
+  const GltfSource* const source = motion.source();
+  if (source == nullptr || options.rest == "-" || !names_other_files(*source)) return {};
+  const auto folder_of = [](const std::string& path) {
+    std::error_code error;
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path, error).parent_path(), error);
+  };
+  if (folder_of(options.rig) == folder_of(options.rest)) return {};
+  return Error{ErrorCode::kUsage,
+               fmt::format("--rig {}: {} has parts in other files, so its copy must be in the same folder", options.rig,
+                           options.rest)};
+}
+
+Result<std::string> encode_rig_as(const std::string& path, const RigFile& file, const GltfSource* source) {
+  if (source == nullptr) return encode_rig(file);
+  return encode_rig_gltf(file, *source, file_extension(path) == ".glb");
+}
+
 std::vector<AffineMap> joints_at_rest(const MotionRig& rig) {
   std::vector<AffineMap> joints;
   for (const RigJoint& joint : rig.joints) joints.push_back(joint.rest);
@@ -36,13 +63,14 @@ std::vector<AffineMap> joints_at_rest(const MotionRig& rig) {
 }
 
 Result<BallRig> rig_balls(const MeshMotion& motion, const std::vector<RiggedFrame>& frames, VertexMap& map,
-                          IndexedMesh& mesh, unsigned threads, const std::function<void(double)>& seen) {
+                          BallBinding binding, IndexedMesh& mesh, unsigned threads,
+                          const std::function<void(double)>& seen) {
   const MotionRig& rig = *motion.rig();
   const auto goes_on = [&](double done) {
     seen(0.5 * done);
     return !interrupted();
   };
-  BallRig balls = bind_balls(rig, motion.rest().vertices, frames, goes_on);
+  BallRig balls = bind_balls(rig, motion.rest().vertices, frames, binding, goes_on);
   std::vector<Point> vertices;
   MotionFrame frame;
   for (std::size_t i = 0; i < frames.size(); ++i) {

@@ -50,7 +50,7 @@ std::string uncovered_text(const MotionRecord& record) {
   }
   if (worst == nullptr) return "no frame has a volume";
   std::string text = fmt::format("{:.2f} % of the solid on average, {:.2f} % at most ({})",
-                                 sum / static_cast<double>(count), most, quoted(worst->name));
+                                 sum / static_cast<double>(count), most, medial_vk::quoted(worst->name));
   const double rest = record.frames.front().uncovered_percent();
   if (std::isfinite(rest)) text = fmt::format("{:.2f} % at rest, {}", rest, text);
   const std::size_t without = record.frames.size() - count;
@@ -90,11 +90,6 @@ std::string rig_text(const BallRig& rig) {
 }
 
 }  // namespace
-
-bool encloses_volume(const MeshReport& report) {
-  return report.closed && report.intersecting_faces == 0 && report.intersections_known && report.faces_within == 0 &&
-         report.faces_without == 0;
-}
 
 std::string follow_opening(const FollowOptions& options, const MeshReport& report, std::uint64_t frames,
                            std::uint64_t separable) {

@@ -6,17 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "cli/follow/rest_mesh.h"
 #include "cli/options/follow_options.h"
+#include "cli/shared/rest_mesh.h"
 #include "medial_vk/measurements.h"
 #include "output/atomic_files/atomic_file.h"
 #include "output/motion_files/motion_record.h"
 #include "rigs/ball_rig.h"
 
 namespace medial_vk::cli {
-
-/// Whether the signed volume of a mesh is the volume of its solid: it is closed, and no faces cross or lie inside.
-bool encloses_volume(const MeshReport& report);
 
 /// Before the work: the mesh and its frames. `separable`: vertices of an animation that stand for several of the file.
 std::string follow_opening(const FollowOptions& options, const MeshReport& report, std::uint64_t frames,

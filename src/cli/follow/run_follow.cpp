@@ -15,10 +15,10 @@
 #include "cli/follow/follow_balls.h"
 #include "cli/follow/follow_rig.h"
 #include "cli/follow/follow_summary.h"
-#include "cli/follow/rest_mesh.h"
 #include "cli/help/help_texts.h"
 #include "cli/options/follow_options.h"
 #include "cli/shared/load.h"
+#include "cli/shared/rest_mesh.h"
 #include "cli/shared/shared_of_run.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/messages.h"
@@ -26,7 +26,6 @@
 #include "common/file_extension.h"
 #include "medial_vk/sphere_proofs.h"
 #include "medial_vk/version.h"
-#include "motion_files/frame_patterns.h"
 #include "motion_files/mesh_motion.h"
 #include "output/atomic_files/atomic_file.h"
 #include "output/motion_files/motion_files.h"
@@ -34,7 +33,6 @@
 #include "output/page/page.h"
 #include "output/picture/motion_picture.h"
 #include "output/picture/panels/image.h"
-#include "output/rig_files/rig_json.h"
 #include "reference_bridge/check_balls.h"
 
 namespace medial_vk::cli {
@@ -109,9 +107,7 @@ class FollowRun {
     shared_.progress.clear();
     if (!motion) return motion.error();
     motion_ = std::move(motion).value();
-    if (!options_.rig.empty() && motion_->rig() == nullptr) {
-      return Error{ErrorCode::kUsage, "--rig is about the joints of an animation; meshes have none"};
-    }
+    if (Status status = check_rig_file(options_, *motion_); !status) return status;
     shared_.times.push_back({"read", stopwatch.lap()});
     return {};
   }
@@ -121,22 +117,15 @@ class FollowRun {
       AnimationOptions animation;
       animation.animation = options_.animation;
       animation.frames_per_second = options_.frames_per_second;
+      animation.keep_source = rig_has_nodes(options_);
       return open_animation(options_.rest, animation);
     }
-    std::vector<std::string> frames;
-    for (const std::string& frame : options_.frames) {
-      if (!is_frame_pattern(frame)) {
-        frames.push_back(frame);
-        continue;
-      }
-      Result<std::vector<std::string>> files = files_of_pattern(frame);
-      if (!files) return files.error();
-      frames.insert(frames.end(), files.value().begin(), files.value().end());
-    }
-    for (const std::string& frame : frames) {
+    Result<std::vector<std::string>> files = files_of_frames(options_.frames);
+    if (!files) return files.error();
+    for (const std::string& frame : files.value()) {
       if (Status status = check_outputs_differ(outputs_of(options_), frame); !status) return status.error();
     }
-    return open_mesh_files(options_.rest, std::move(frames));
+    return open_mesh_files(options_.rest, std::move(files).value());
   }
 
   /// Faces inside the solid stay: cuts along crossings would make vertices that no frame has.
@@ -287,7 +276,8 @@ class FollowRun {
   Status rig() {
     if (options_.rig.empty()) return {};
     Stopwatch stopwatch;
-    Result<BallRig> bound = rig_balls(*motion_, rigged_, *map_, *mesh_, threads(),
+    const BallBinding binding = rig_has_nodes(options_) ? BallBinding::kOneJoint : BallBinding::kBlended;
+    Result<BallRig> bound = rig_balls(*motion_, rigged_, *map_, binding, *mesh_, threads(),
                                       [&](double done) { shared_.progress.update("rig", done); });
     shared_.progress.clear();
     if (!bound) return bound.error();
@@ -306,7 +296,10 @@ class FollowRun {
       files_.push_back({output, std::move(bytes).value()});
     }
     if (!options_.rig.empty()) {
-      files_.push_back({options_.rig, encode_rig({record_.version, record_.name, *motion_->rig(), rig_})});
+      Result<std::string> bytes =
+          encode_rig_as(options_.rig, {record_.version, record_.name, *motion_->rig(), rig_}, motion_->source());
+      if (!bytes) return bytes.error();
+      files_.push_back({options_.rig, std::move(bytes).value()});
     }
     if (options_.picture.empty() && options_.html.empty()) return {};
     shared_.progress.update("picture", 0);

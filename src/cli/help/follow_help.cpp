@@ -66,8 +66,11 @@ Output:
                         in each state; "-": that table on standard output
       --picture FILE    a .png with up to twelve frames side by side
       --html FILE       a page that plays the motion
-      --rig FILE        a .json with the balls bound to the joints of the
-                        animation, for engines that move vertices so
+      --rig FILE        the balls bound to the joints of the animation
+                        .glb, .gltf: a copy of the scene with each ball as a
+                        node below one joint, which any engine moves
+                        .json: each below up to four joints, with weights, for
+                        engines that move vertices so
       --view FROM       of the picture: front, back, left, right, top, bottom,
                         iso or x,y,z, the direction towards the viewer
       --up AXIS         of picture and page: x, y, z, -x, -y or -z (default y)

@@ -17,6 +17,7 @@ Examples:
   medial-vk spheres part.stl --count 64     writes part.spheres.csv
   medial-vk spheres robot.urdf --count-per-link 32    writes robot.spheres.urdf
   medial-vk spheres robot.urdf --total 100 -o robot.yml     for cuRobo
+  medial-vk spheres part.obj --count 32 --frames bent.obj twisted.obj
   medial-vk spheres part.stl --error 0.05 --picture part.png    covers 95 %
 
 How many spheres (goals that are given together must all be met):
@@ -48,6 +49,14 @@ What they guarantee:
                         source it stands for the count
       --object-angle A  of --method source: smallest object angle of medial
                         spheres, radians, between 0 and pi/2 (default 0.6)
+
+Of a mesh that deforms:
+      --frames FILE...  the spheres that, as they follow it, leave least of the
+                        solid uncovered in all frames together, instead of the
+                        best at rest: meshes with the same triangles, a pattern
+                        such as "walk_*.obj", or MESH itself, a .glb with an
+                        animation; with --count, of contract inside
+      --animation NAME  of a scene with several: the name, or the number from 1
 
 Robots:
       --collision       the links' <collision> geometry (default)

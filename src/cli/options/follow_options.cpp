@@ -108,8 +108,8 @@ Status check_follow_outputs(const FollowOptions& options) {
     return usage_error(fmt::format("--output: '{}' ends in none of .npz, .glb and .csv", file));
   }
   if (Status status = check_view_files(options.picture, options.html); !status) return status;
-  if (!may_end_in(options.rig, ".json")) {
-    return usage_error(fmt::format("--rig: '{}' does not end in .json", options.rig));
+  if (!may_end_in(options.rig, ".json") && !rig_has_nodes(options)) {
+    return usage_error(fmt::format("--rig: '{}' ends in none of .json, .glb and .gltf", options.rig));
   }
   if (!options.rig.empty() && !options.frames.empty()) {
     return usage_error("--rig is about the joints of an animation; meshes have none");
@@ -143,6 +143,11 @@ std::vector<std::string> inputs_of(const FollowOptions& options) {
   inputs.push_back(options.rest);
   if (!options.balls.empty()) inputs.push_back(options.balls);
   return inputs;
+}
+
+bool rig_has_nodes(const FollowOptions& options) {
+  const std::string extension = file_extension(options.rig);
+  return extension == ".glb" || extension == ".gltf";
 }
 
 bool writes_table(const FollowOptions& options) {

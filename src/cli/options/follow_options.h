@@ -72,6 +72,9 @@ std::vector<NamedOutput> outputs_of(const FollowOptions& options);
 /// Every file to be read that the command line names.
 std::vector<std::string> inputs_of(const FollowOptions& options);
 
+/// Whether `--rig` writes a scene with balls as nodes, and not a table.
+bool rig_has_nodes(const FollowOptions& options);
+
 /// Whether a file with a line per frame is written, for which the gap of each frame is measured.
 bool writes_table(const FollowOptions& options);
 

@@ -57,6 +57,8 @@ void declare(CLI::App& app, SpheresOptions& options, Given& given) {
                                             given.contract);
   add.real("--object-angle", {0, std::numbers::pi / 2, false}, " radians", given.object_angle);
   add.flag("--levels", options.spheres.levels);
+  add.texts("--frames", "files", options.frames);
+  add.text("--animation", "name or number", options.animation);
   add.flag("--keep-inner-faces", options.keep_inner_faces);
   add.flag("--collision", given.collision);
   add.flag("--visual", options.visual);
@@ -176,6 +178,9 @@ Status complete_files(SpheresOptions& options, const Given& given) {
   if (options.each) {
     if (Status status = check_no_stream(outputs_of(options)); !status) return status;
   }
+  for (const std::string& frame : options.frames) {
+    if (Status status = check_outputs_differ(outputs_of(options), frame); !status) return status;
+  }
   return check_outputs_differ(outputs_of(options), options.input);
 }
 
@@ -200,8 +205,40 @@ Status check_both(const SpheresOptions& options, const Given& given) {
   return usage_error("--method source: with --contract both only --method best is supported");
 }
 
+/// Spheres that follow a motion are one set inside one mesh, by number.
+Status check_frames(const SpheresOptions& options) {
+  if (options.frames.empty()) {
+    if (options.animation.empty()) return {};
+    return usage_error("--animation is about a motion: use it with --frames");
+  }
+  if (file_extension(options.input) == ".urdf") {
+    return usage_error("--frames are those of one mesh; the links of a robot do not deform");
+  }
+  const SphereFitOptions& fit = options.spheres;
+  if (options.both || fit.contract != SphereContract::kInside) {
+    return usage_error("--frames: only spheres of --contract inside follow a motion");
+  }
+  const std::pair<const char*, bool> of_rest[] = {{"--each", options.each},
+                                                  {"--levels", fit.levels},
+                                                  {"--error", fit.error > 0},
+                                                  {"--max-gap", fit.max_gap > 0},
+                                                  {"--method source", fit.method == SphereMethod::kSource},
+                                                  {"--keep-inner-faces", options.keep_inner_faces},
+                                                  {"--picture", !options.picture.empty()},
+                                                  {"--histogram", !options.histogram.empty()},
+                                                  {"--report", !options.report.empty()}};
+  for (const auto& [name, is_given] : of_rest) {
+    if (is_given) return usage_error(fmt::format("{} is about a mesh that does not move: leave out --frames", name));
+  }
+  if (fit.count == 0) return usage_error("--frames: give the number of spheres with --count N");
+  const bool is_animation = options.frames == std::vector<std::string>{options.input};
+  if (is_animation || options.animation.empty()) return {};
+  return usage_error(fmt::format("--animation is about a scene: use --frames {}, too", options.input));
+}
+
 Status check_combinations(const SpheresOptions& options, const Given& given) {
   if (Status status = check_both(options, given); !status) return status;
+  if (Status status = check_frames(options); !status) return status;
   if (options.check && options.spheres.contract == SphereContract::kBalanced) {
     return usage_error("--check: spheres of the contract balanced guarantee nothing that could be checked");
   }

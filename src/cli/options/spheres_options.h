@@ -27,6 +27,10 @@ struct SpheresOptions {
   /// A body file: balls inside and a cover, of `spheres.count` each. `format` and `spheres.contract` are not read.
   bool both = false;
 
+  /// Meshes of a motion, or patterns, or `input` itself: its animation. Empty: the solid does not move.
+  std::vector<std::string> frames;
+  std::string animation;  ///< Its name, or its number from 1; empty: the only one.
+
   bool keep_inner_faces = false;
   SphereFitOptions spheres;        ///< `threads` is the number for the whole run.
   std::size_t count_per_link = 0;  ///< 0: not given.

@@ -16,6 +16,7 @@
 #include "cli/shared/reference_with_estimate.h"
 #include "cli/shared/shared_of_run.h"
 #include "cli/spheres/run_body.h"
+#include "cli/spheres/run_motion_fit.h"
 #include "cli/spheres/spheres_summary.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/messages.h"
@@ -349,6 +350,7 @@ Status run_spheres(const std::vector<std::string>& arguments) {
   if (!options) return options.error();
   if (options.value().help) return print_result(spheres_help_text());
   if (options.value().both) return run_body(options.value());
+  if (!options.value().frames.empty()) return run_motion_fit(options.value());
   return SpheresRuns(options.value()).run();
 }
 

@@ -22,7 +22,7 @@ Json matrix_of(const AffineMap& map) {
 Json joint_of(const RigJoint& joint) {
   Json parent;  // null: none
   if (joint.parent != RigJoint::kNone) parent = joint.parent;
-  return {{"name", joint.name}, {"parent", parent}, {"rest_matrix", matrix_of(joint.rest)}};
+  return {{"name", joint.name}, {"node", joint.node}, {"parent", parent}, {"rest_matrix", matrix_of(joint.rest)}};
 }
 
 Json ball_of(const RigBall& ball) {

@@ -110,8 +110,11 @@ TEST(FollowOptions, Files) {
   EXPECT_THAT(follow_message({"r.obj", "a.obj", "--balls", "b.csv", "-o", "b.csv"}), HasSubstr("would overwrite"));
   EXPECT_THAT(follow_message({"r.obj", "a.obj", "--picture", "a.jpg"}), HasSubstr("does not end in .png"));
   EXPECT_THAT(follow_message({"r.obj", "a.obj", "--rig", "a.json"}), HasSubstr("--rig is about the joints"));
-  EXPECT_THAT(follow_message({"r.glb", "--rig", "a.txt"}), HasSubstr("does not end in .json"));
+  EXPECT_THAT(follow_message({"r.glb", "--rig", "a.txt"}), HasSubstr("ends in none of .json, .glb and .gltf"));
   EXPECT_EQ(parsed_follow({"r.glb", "--rig", "a.json"}).rig, "a.json");
+  EXPECT_FALSE(rig_has_nodes(parsed_follow({"r.glb", "--rig", "a.json"})));
+  for (const char* file : {"a.glb", "b.gltf"}) EXPECT_TRUE(rig_has_nodes(parsed_follow({"r.glb", "--rig", file})));
+  EXPECT_THAT(follow_message({"r.glb", "--rig", "r.glb"}), HasSubstr("would overwrite the input"));
   EXPECT_THAT(follow_message({"r.obj", "a.obj", "-o", "-", "--picture", "-"}), HasSubstr("the same file"));
 }
 

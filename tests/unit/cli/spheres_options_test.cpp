@@ -113,6 +113,35 @@ TEST(SpheresOptions, ABodyFileHasTwoSets) {
   EXPECT_THAT(message({"-o", "a.npz", "--report", "a.npz"}), HasSubstr("same file"));
 }
 
+TEST(SpheresOptions, FramesAreOfOneSetInsideAMesh) {
+  const SpheresOptions two = parsed_spheres({"a.obj", "--count", "9", "--frames", "b.obj", "c.obj", "-q"});
+  EXPECT_EQ(two.frames, (std::vector<std::string>{"b.obj", "c.obj"}));
+  EXPECT_EQ(parsed_spheres({"--frames", "b.obj", "--count", "9", "a.obj"}).input, "a.obj");
+  EXPECT_EQ(parsed_spheres({"a.glb", "--count", "9", "--frames", "a.glb", "--animation", "w"}).animation, "w");
+  const auto message = [](std::vector<std::string> options) {
+    options.insert(options.begin(), {"a.obj", "--count", "9", "--frames", "b.obj"});
+    return spheres_message(options);
+  };
+  for (const char* contract : {"cover", "balanced", "both"}) {
+    EXPECT_THAT(message({"--contract", contract}), HasSubstr("--contract inside"));
+  }
+  for (const char* flag : {"--each", "--levels", "--keep-inner-faces"}) EXPECT_THAT(message({flag}), HasSubstr(flag));
+  for (const auto& [option, value] : {std::pair("--error", "0.1"),
+                                      {"--max-gap", "1"},
+                                      {"--method", "source"},
+                                      {"--picture", "p.png"},
+                                      {"--histogram", "h.svg"},
+                                      {"--report", "r.json"}}) {
+    EXPECT_THAT(message({option, value}), HasSubstr(std::string(option)));
+  }
+  EXPECT_THAT(message({"--animation", "w"}), HasSubstr("use --frames a.obj"));
+  EXPECT_THAT(message({"-o", "b.csv", "--frames", "b.csv"}), HasSubstr("overwrite"));
+  EXPECT_THAT(spheres_message({"a.obj", "--count", "9", "--animation", "w"}), HasSubstr("use it with --frames"));
+  EXPECT_THAT(spheres_message({"a.obj", "--error", "0.1", "--frames", "b.obj"}), HasSubstr("leave out --frames"));
+  EXPECT_THAT(spheres_message({"a.obj", "--frames", "b.obj"}), HasSubstr("--count N"));
+  EXPECT_THAT(spheres_message({"a.urdf", "--total", "9", "--frames", "b.obj"}), HasSubstr("do not deform"));
+}
+
 TEST(SpheresOptions, PackagesAddUp) {
   const SpheresOptions options = parsed_spheres({"a.urdf", "--total", "9", "--package", "a=b", "--package", "c=d"});
   EXPECT_EQ(options.packages, (std::vector<std::string>{"a=b", "c=d"}));

@@ -60,9 +60,9 @@ struct AnimationWriter : GltfWriter {
   }
 };
 
-/// A tetrahedron whose tip, the last corner, has a joint of its own above the base, which turns about x by a quarter in
-/// the first second. The second corner follows both joints, in the parts 3/4 and 1/4.
-inline AnimationWriter skinned_animation() {
+/// A tetrahedron whose tip, the last corner, has a joint of its own above the base, which turns about x in the first
+/// second, by a quarter if nothing else is said. The second corner follows both joints, in the parts 3/4 and 1/4.
+inline AnimationWriter skinned_animation(double turn = std::acos(0)) {
   AnimationWriter writer(
       nlohmann::json::array({{{"name", "base"}, {"children", {1}}, {"translation", {5, 0, 0}}},
                              {{"name", "tip"}, {"translation", {0, 0, 1}}},
@@ -75,8 +75,7 @@ inline AnimationWriter skinned_animation() {
   const std::vector<double> matrices = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0,  1,
                                         1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -1, 1};
   writer.document["skins"] = {{{"joints", {0, 1}}, {"inverseBindMatrices", writer.add_floats(matrices, "MAT4", 16)}}};
-  const double half = std::sqrt(.5);
-  writer.add_channel(1, "rotation", {0, 1}, {0, 0, 0, 1, half, 0, 0, half});
+  writer.add_channel(1, "rotation", {0, 1}, {0, 0, 0, 1, std::sin(turn / 2), 0, 0, std::cos(turn / 2)});
   writer.document["animations"][0]["name"] = "bow";
   return writer;
 }

@@ -13,6 +13,7 @@ TEST(RigJson, HoldsJointsAndBalls) {
   rig.joints.resize(2);
   rig.joints[0].name = "hip \"left\"\xff";
   rig.joints[1].name = "knee";
+  rig.joints[1].node = 17;
   rig.joints[1].parent = 0;
   rig.joints[1].rest = AffineMap(AffineMap::Rows{{{1, 2, 3, 4}, {5, 6, 7, 8}, {9, 10, 11, 12}}});
   BallRig balls;
@@ -29,6 +30,7 @@ TEST(RigJson, HoldsJointsAndBalls) {
   EXPECT_EQ(file["greatest_reach_out"], 0.25);
   EXPECT_TRUE(file["joints"][0]["parent"].is_null());
   EXPECT_EQ(file["joints"][1]["parent"], 0);
+  EXPECT_EQ(file["joints"][1]["node"], 17) << "of the scene";
   EXPECT_EQ(file["joints"][1]["rest_matrix"], (std::vector<double>{1, 5, 9, 0, 2, 6, 10, 0, 3, 7, 11, 0, 4, 8, 12, 1}));
   const auto& ball = file["balls"][0];
   EXPECT_EQ(ball["radius"], 1.0 / 3) << "the same double";

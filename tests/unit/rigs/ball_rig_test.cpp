@@ -93,7 +93,7 @@ TEST(BallRig, RigidPartsFollowTheirJointExactly) {
   const std::vector<RiggedFrame> frames = {
       {arm.pose(0), {{{-0.5, 1.1, 0}, 0.3}, {{4.5, 1, 0.1}, 0.25}}},
       {arm.pose(1), {{{-0.5, 1.1, 0}, 0.3}, {arm.pose(1)[1]({2.5, 0, 0.1}), 0.25}}}};
-  const BallRig bound = bind_balls(arm.rig, arm.vertices, frames, kGoOn);
+  const BallRig bound = bind_balls(arm.rig, arm.vertices, frames, BallBinding::kBlended, kGoOn);
   ASSERT_EQ(bound.balls.size(), 2u);
   EXPECT_EQ(joints_of(bound.balls[0]), std::vector<std::uint32_t>{0});
   EXPECT_EQ(joints_of(bound.balls[1]), std::vector<std::uint32_t>{1});
@@ -117,13 +117,31 @@ TEST(BallRig, NearTheJointBothMoveABall) {
     for (std::size_t k = 0; k < 3; ++k) centre[k] = 0.5 * (first[k] + second[k]);
     frames.push_back({joints, {{centre, 0.4}}});
   }
-  const BallRig bound = bind_balls(arm.rig, arm.vertices, frames, kGoOn);
+  const BallRig bound = bind_balls(arm.rig, arm.vertices, frames, BallBinding::kBlended, kGoOn);
   ASSERT_EQ(bound.balls[0].joints.size(), 2u);
   EXPECT_NEAR(bound.balls[0].joints[0].weight, 0.5, 1e-9);
   for (const RiggedFrame& frame : frames) {
     const Point centre = posed_centres(bound, frame.joints)[0];
     for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(centre[k], frame.balls[0].centre[k], 1e-9);
   }
+}
+
+TEST(BallRig, OneJointIsTheOneThatStaysNearest) {
+  const Arm arm;
+  // The ball that follows is nearer to the first joint: three quarters of its motion are that of the first.
+  std::vector<RiggedFrame> frames;
+  for (const double angle : {0.0, 0.3, 0.6}) {
+    const std::vector<AffineMap> joints = arm.pose(angle);
+    const Point first = joints[0]({2.2, 0.1, 0}), second = joints[1]({0.2, 0.1, 0});
+    Point centre;
+    for (std::size_t k = 0; k < 3; ++k) centre[k] = 0.75 * first[k] + 0.25 * second[k];
+    frames.push_back({joints, {{centre, 0.4}}});
+  }
+  const BallRig bound = bind_balls(arm.rig, arm.vertices, frames, BallBinding::kOneJoint, kGoOn);
+  EXPECT_EQ(joints_of(bound.balls[0]), std::vector<std::uint32_t>{0});
+  EXPECT_EQ(bound.balls[0].joints[0].weight, 1);
+  const Point centre = posed_centres(bound, frames[0].joints)[0];
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(centre[k], frames[0].balls[0].centre[k], 1e-12) << "at rest";
 }
 
 TEST(BallRig, NodesWithFramesOfTheirOwnKeepTheirBalls) {
@@ -139,7 +157,7 @@ TEST(BallRig, NodesWithFramesOfTheirOwnKeepTheirBalls) {
     const AffineMap first = shift(0, t, 0), second = shift(0, 0, 3 * t) * turn_about_z(t);
     frames.push_back({{first, second * rig.joints[1].rest}, {{first({0.6, 0, 0}), 0.5}, {second({1.5, 0, 0}), 0.5}}});
   }
-  const BallRig bound = bind_balls(rig, vertices, frames, kGoOn);
+  const BallRig bound = bind_balls(rig, vertices, frames, BallBinding::kBlended, kGoOn);
   for (const RiggedFrame& frame : frames) {
     const std::vector<Point> centres = posed_centres(bound, frame.joints);
     for (std::size_t i = 0; i < 2; ++i) {
@@ -153,7 +171,7 @@ TEST(BallRig, JointsWithoutAnInverseMoveNothing) {
   std::vector<AffineMap> flat = arm.pose(0);
   flat[1] = AffineMap(AffineMap::Rows{{{0, 0, 0, 2}, {0, 1, 0, 1}, {0, 0, 1, 0}}});
   const std::vector<RiggedFrame> frames = {{flat, {{{4.5, 1, 0}, 0.25}}}};
-  const BallRig bound = bind_balls(arm.rig, arm.vertices, frames, kGoOn);
+  const BallRig bound = bind_balls(arm.rig, arm.vertices, frames, BallBinding::kBlended, kGoOn);
   EXPECT_TRUE(bound.balls[0].joints.empty());
   EXPECT_EQ(bound.balls[0].radius, 0);
 }
@@ -181,7 +199,7 @@ TEST(BallRig, EveryFrameLimitsTheRadii) {
 TEST(BallRig, ALostBallBindsByTheOtherFrames) {
   const Arm arm;
   const std::vector<RiggedFrame> frames = {{arm.pose(0), {{{4.5, 1, 0}, 0.25}}}, {arm.pose(1), {{{9, 9, 9}, 0}}}};
-  const BallRig bound = bind_balls(arm.rig, arm.vertices, frames, kGoOn);
+  const BallRig bound = bind_balls(arm.rig, arm.vertices, frames, BallBinding::kBlended, kGoOn);
   EXPECT_EQ(joints_of(bound.balls[0]), std::vector<std::uint32_t>{1});
 }
 

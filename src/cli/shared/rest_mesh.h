@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "medial_vk/mesh.h"
+#include "medial_vk/result.h"
 
 namespace medial_vk::cli {
 
@@ -31,6 +33,13 @@ class VertexMap {
   std::vector<std::uint32_t> vertex_of_input_, first_input_;
   PartedVertices parted_;
 };
+
+/// The mesh files that the frames of a command line stand for, patterns among them. Errors: those of
+/// files_of_pattern().
+Result<std::vector<std::string>> files_of_frames(std::span<const std::string> frames);
+
+/// Whether the signed volume of a mesh is the volume of its solid: it is closed, and no faces cross or lie inside.
+bool encloses_volume(const MeshReport& report);
 
 /// Whether the signed volume of a closed mesh is negative in a frame.
 bool is_mirrored(const PreparedMesh& rest, std::span<const Point> vertices);

@@ -1,8 +1,10 @@
-#include "cli/follow/rest_mesh.h"
+#include "cli/shared/rest_mesh.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "motion_files/frame_patterns.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -47,6 +49,25 @@ void VertexMap::map(std::span<const Point> positions, std::vector<Point>& vertic
     parted_.distance = std::max(parted_.distance, distance(positions[i], vertices[vertex]));
   }
   parted_.count = std::max(parted_.count, count);
+}
+
+Result<std::vector<std::string>> files_of_frames(std::span<const std::string> frames) {
+  std::vector<std::string> files;
+  for (const std::string& frame : frames) {
+    if (!is_frame_pattern(frame)) {
+      files.push_back(frame);
+      continue;
+    }
+    const Result<std::vector<std::string>> found = files_of_pattern(frame);
+    if (!found) return found.error();
+    files.insert(files.end(), found.value().begin(), found.value().end());
+  }
+  return files;
+}
+
+bool encloses_volume(const MeshReport& report) {
+  return report.closed && report.intersecting_faces == 0 && report.intersections_known && report.faces_within == 0 &&
+         report.faces_without == 0;
 }
 
 bool is_mirrored(const PreparedMesh& rest, std::span<const Point> vertices) {

@@ -1,0 +1,155 @@
+// Balls chosen for several frames: as good as theory promises, and never worse than those that were given.
+#include "motion_fits/choose_balls.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "medial_vk/ball_union.h"
+
+namespace medial_vk {
+namespace {
+
+double union_volume(const std::vector<Ball>& balls) {
+  std::vector<Ball> present;
+  for (const Ball& ball : balls) {
+    if (ball.radius > 0) present.push_back(ball);
+  }
+  return present.empty() ? 0 : measure_ball_union(present).value().volume;
+}
+
+/// By unions that are measured anew.
+double value_of(const std::vector<CandidateFrame>& frames, const std::vector<std::uint32_t>& chosen) {
+  double sum = 0;
+  for (const CandidateFrame& frame : frames) {
+    std::vector<Ball> balls;
+    for (const std::uint32_t c : chosen) balls.push_back(frame.balls[c]);
+    sum += frame.weight * union_volume(balls);
+  }
+  return sum;
+}
+
+/// Balls that wander and change from frame to frame; some are lost.
+std::vector<CandidateFrame> wandering(std::size_t candidates, std::size_t frames, unsigned seed) {
+  std::mt19937 random(seed);
+  const auto uniform = [&](double least, double greatest) {
+    return least + (greatest - least) * static_cast<double>(random() - random.min()) /
+                       static_cast<double>(random.max() - random.min());
+  };
+  std::vector<CandidateFrame> made(frames);
+  for (std::size_t f = 0; f < frames; ++f) made[f].weight = 1.0 + static_cast<double>(f);
+  for (std::size_t c = 0; c < candidates; ++c) {
+    const Point home = {uniform(0, 3), uniform(0, 2), uniform(0, 2)};
+    for (CandidateFrame& frame : made) {
+      Ball ball = {home, uniform(0, 5) < 1 ? 0 : uniform(0.2, 0.9)};
+      for (double& x : ball.centre) x += uniform(-0.3, 0.3);
+      frame.balls.push_back(ball);
+    }
+  }
+  return made;
+}
+
+MotionChoice choose(const std::vector<CandidateFrame>& frames, std::size_t count,
+                    const std::vector<std::uint32_t>& start = {}, unsigned threads = 1) {
+  ChoiceOptions options;
+  options.count = count;
+  options.threads = threads;
+  return choose_balls(frames, start, options).value();
+}
+
+/// The greatest value of any three candidates.
+double best_of_three(const std::vector<CandidateFrame>& frames) {
+  const auto count = static_cast<std::uint32_t>(frames.front().balls.size());
+  double best = 0;
+  for (std::uint32_t a = 0; a < count; ++a) {
+    for (std::uint32_t b = a + 1; b < count; ++b) {
+      for (std::uint32_t c = b + 1; c < count; ++c) best = std::max(best, value_of(frames, {a, b, c}));
+    }
+  }
+  return best;
+}
+
+TEST(ChooseBalls, IsAsGoodAsTheBoundOfTheGreedyChoice) {
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    const std::vector<CandidateFrame> frames = wandering(9, 3, seed);
+    const MotionChoice choice = choose(frames, 3);
+    ASSERT_EQ(choice.chosen.size(), 3u);
+    EXPECT_NEAR(choice.value, value_of(frames, choice.chosen), 1e-9 * choice.value) << "as measured anew";
+    EXPECT_GE(choice.value, (1 - 1 / std::numbers::e) * best_of_three(frames)) << seed;
+  }
+}
+
+TEST(ChooseBalls, EndsWhereNoExchangeOfTheBestOneHelps) {
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    const std::vector<CandidateFrame> frames = wandering(40, 4, seed);
+    const MotionChoice choice = choose(frames, 8);
+    // The candidate with the greatest gain, and the chosen one without which the value falls least.
+    double best = 0;
+    std::uint32_t added = 0;
+    for (std::uint32_t c = 0; c < 40; ++c) {
+      std::vector<std::uint32_t> with = choice.chosen;
+      with.push_back(c);
+      const double gain = value_of(frames, with) - choice.value;
+      if (std::ranges::find(choice.chosen, c) != choice.chosen.end() || gain <= best) continue;
+      best = gain;
+      added = c;
+    }
+    for (std::size_t out = 0; out < choice.chosen.size(); ++out) {
+      std::vector<std::uint32_t> other = choice.chosen;
+      other[out] = added;
+      EXPECT_LE(value_of(frames, other), choice.value * (1 + 2e-6)) << seed;
+    }
+  }
+}
+
+TEST(ChooseBalls, IsNeverWorseThanWhatItIsGiven) {
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    const std::vector<CandidateFrame> frames = wandering(60, 3, seed);
+    std::vector<std::uint32_t> start;
+    for (std::uint32_t c = 0; c < 10; ++c) start.push_back(6 * c);
+    const MotionChoice choice = choose(frames, 10, start);
+    EXPECT_EQ(choice.chosen.size(), 10u);
+    EXPECT_GT(choice.value, value_of(frames, start)) << "of any ten, some can be exchanged";
+    EXPECT_NEAR(choice.value, value_of(frames, choice.chosen), 1e-9 * choice.value);
+  }
+}
+
+// The first is the best one at rest, but nearly vanishes in the other frames.
+TEST(ChooseBalls, AllFramesCount) {
+  const Ball large = {{0, 0, 0}, 1}, small = {{0, 0, 0}, 0.1}, other = {{5, 0, 0}, 0.9};
+  const std::vector<CandidateFrame> frames = {{{large, other}, 1}, {{small, other}, 1}, {{small, other}, 1}};
+  EXPECT_EQ(choose(frames, 1).chosen, std::vector<std::uint32_t>{1});
+  EXPECT_EQ(choose(frames, 1, {0}).chosen, std::vector<std::uint32_t>{1}) << "by an exchange";
+  const std::vector<CandidateFrame> mostly_rest = {{{large, other}, 9}, {{small, other}, 1}};
+  EXPECT_EQ(choose(mostly_rest, 1).chosen, std::vector<std::uint32_t>{0}) << "by its weight";
+}
+
+TEST(ChooseBalls, WhatAddsNothingIsLeftOut) {
+  const Ball outer = {{0, 0, 0}, 1}, inner = {{0.1, 0, 0}, 0.5}, lost = {{9, 9, 9}, 0};
+  const std::vector<CandidateFrame> frames = {{{inner, lost, outer}, 1}};
+  const MotionChoice choice = choose(frames, 3);
+  EXPECT_EQ(choice.chosen, std::vector<std::uint32_t>{2});
+  EXPECT_EQ(choose(frames, 100).chosen, std::vector<std::uint32_t>{2}) << "more than there are";
+}
+
+TEST(ChooseBalls, ThreadsDoNotMatter) {
+  const std::vector<CandidateFrame> frames = wandering(80, 5, 11);
+  const MotionChoice one = choose(frames, 12), four = choose(frames, 12, {}, 4);
+  EXPECT_EQ(one.chosen, four.chosen);
+  EXPECT_EQ(one.value, four.value);
+}
+
+TEST(ChooseBalls, Errors) {
+  ChoiceOptions options;
+  const std::vector<CandidateFrame> frames = wandering(5, 2, 1);
+  options.goes_on = [](double) { return false; };
+  EXPECT_EQ(choose_balls(frames, {}, options).error().code, ErrorCode::kInterrupted);
+  const std::vector<CandidateFrame> none(1);
+  EXPECT_EQ(choose_balls(none, {}, ChoiceOptions()).error().code, ErrorCode::kUsage);
+}
+
+}  // namespace
+}  // namespace medial_vk
