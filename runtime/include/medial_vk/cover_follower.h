@@ -1,5 +1,5 @@
-// Balls that cover a solid and follow its boundary as the vertices of the mesh move (docs/theory.md, "Covers that follow
-// a surface").
+// Balls that cover a solid and follow its boundary as the vertices of the mesh move (docs/theory.md, "Covers that
+// follow a surface").
 #pragma once
 
 #include <cstdint>
@@ -22,6 +22,9 @@ struct CoverFollowerOptions {
   /// Only the triangles are covered, and the solid where no cavity opens between the balls. A frame then takes a small
   /// share of the time.
   bool surface_only = false;
+  /// The number of steps that all balls take towards a smaller volume of the union in every frame. Each takes the time
+  /// of one measure_ball_union() and some more.
+  std::uint32_t steps = 0;
   unsigned threads = 0;  ///< Of the host, 0: one per core. The result does not depend on it.
 
   bool operator==(const CoverFollowerOptions&) const = default;
@@ -38,14 +41,15 @@ struct CoverFollowMeasures {
   double added() const { return ball_volume - solid_volume; }
 };
 
-/// A set of balls that covers every frame of a motion. Each part of a triangle is held by one ball, which moves with its
-/// parts and has the radius that they need. Frames do not depend on each other. Objects are independent of each other.
+/// A set of balls that covers every frame of a motion. Each part of a triangle is held by one ball, which moves with
+/// its parts and has the radius that they need. Frames do not depend on each other. Objects are independent of each
+/// other.
 class CoverFollower {
  public:
   /// The balls are meant to cover the rest pose closely, as fits with contract `cover` do; balls that leave points out
-  /// grow until they hold them. Balls of radius 0 hold no triangle. Errors: kUsage (no ball with a positive radius; more
-  /// than 2^24 balls; names a ball with a number that is out of range), kInvalidMesh (a longest side below 1e-60, a
-  /// coordinate above 1e60), kOutOfMemory.
+  /// grow until they hold them. Balls of radius 0 hold no triangle. Errors: kUsage (no ball with a positive radius;
+  /// more than 2^24 balls; names a ball with a number that is out of range), kInvalidMesh (a longest side below 1e-60,
+  /// a coordinate above 1e60), kOutOfMemory.
   static Result<CoverFollower> create(const IndexedMesh& rest, std::span<const Ball> balls,
                                       const CoverFollowerOptions& options = {});
   CoverFollower(CoverFollower&&) noexcept;

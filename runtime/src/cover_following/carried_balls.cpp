@@ -25,10 +25,23 @@ double greatest_coordinate(const Corners3& corners) {
 
 }  // namespace
 
-Ball ball_around_points(const Point& centre, double distance, double greatest) {
-  // Three products and two sums, all of at most `greatest`, are rounded in each coordinate of a point; its distance has
-  // a relative error of 4 units.
-  return {centre, distance * (1 + 16 * kRounding) + 8 * kRounding * greatest};
+const Point& CarriedBalls::Held::farthest(const Point& from) const {
+  std::size_t out = 0;
+  double most = -1;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Point d = points[k] - from;
+    const double squared = dot(d, d);
+    if (!(squared > most)) continue;
+    most = squared;
+    out = k;
+  }
+  return points[out];
+}
+
+/// Three products and two sums, all of at most `greatest`, are rounded in each coordinate of a point: its error is
+/// below 7 units of `greatest`. Its distance has a relative error of 4 units, and so has the radius.
+Ball CarriedBalls::Held::around(const Point& centre) const {
+  return {centre, length(farthest(centre) - centre) * (1 + 16 * kRounding) + 8 * kRounding * greatest};
 }
 
 CarriedBalls::CarriedBalls(const MovingSurface& surface, Patches patches, std::span<const Ball> balls)
@@ -72,13 +85,11 @@ void CarriedBalls::prepare(const MovingSurface& surface, std::size_t i, double r
   squares += (1e-9 * squares.trace()) * Eigen::Matrix3d::Identity();
   const Eigen::Vector3d solved = squares.ldlt().solve(vector_of(centres_[i] - mean));
   if (!solved.allFinite()) return;  // All patches in one point: the mean it is.
-  for_corners([&](std::uint32_t k, double weight, const Point& p) {
-    shares_[k] = weight * vector_of(p - mean).dot(solved);
-  });
+  for_corners(
+      [&](std::uint32_t k, double weight, const Point& p) { shares_[k] = weight * vector_of(p - mean).dot(solved); });
   for (std::size_t k = patches_.first[i]; k < patches_.first[i + 1]; ++k) {
     const Patch& patch = patches_.patches[k];
-    normal_shares_[k] =
-        normal_weight * patch.area * vector_of(surface.inward_normal(patch.triangle)).dot(solved);
+    normal_shares_[k] = normal_weight * patch.area * vector_of(surface.inward_normal(patch.triangle)).dot(solved);
   }
 }
 
@@ -99,19 +110,47 @@ Point CarriedBalls::carried(const MovingSurface& surface, std::size_t i) const {
   return mean + (moved - sum * mean);
 }
 
-Ball CarriedBalls::ball(const MovingSurface& surface, std::size_t i) const {
-  if (!has_patches(i)) return {centres_[i], 0};
-  const Point centre = carried(surface, i);
-  double squared = 0, greatest = 0;
+CarriedBalls::Held CarriedBalls::held(const MovingSurface& surface, std::size_t i) const {
+  Held held;
   for (const Patch& patch : patches_.of(i)) {
     const Corners3 corners = surface.corners(patch.triangle);
-    greatest = std::max(greatest, greatest_coordinate(corners));
+    held.greatest = std::max(held.greatest, greatest_coordinate(corners));
     for (std::uint32_t k = patch.first; k < patch.first + patch.count; ++k) {
-      const Point d = point_of(patches_.corners[k], corners) - centre;
-      squared = std::max(squared, dot(d, d));
+      held.points.push_back(point_of(patches_.corners[k], corners));
     }
   }
-  return ball_around_points(centre, std::sqrt(squared), greatest);
+  return held;
+}
+
+Ball CarriedBalls::ball(const MovingSurface& surface, std::size_t i) const {
+  if (!has_patches(i)) return {centres_[i], 0};
+  return held(surface, i).around(carried(surface, i));
+}
+
+/// The function is convex; its gradient is the vector less `area` times the direction to the farthest point.
+Ball CarriedBalls::shifted(const MovingSurface& surface, std::size_t i, const Ball& ball, double area,
+                           const Point& vector, double reach) const {
+  constexpr int kSteps = 12;
+  if (!has_patches(i) || !(area > 0)) return ball;
+  const Held points = held(surface, i);
+  Ball best = ball;
+  double least = area * ball.radius;
+  Point centre = ball.centre;
+  for (int step = 0; step < kSteps; ++step) {
+    const Point out = points.farthest(centre) - centre;
+    const double radius = length(out);
+    const Point moved = centre - ball.centre;
+    const double value = area * radius + dot(vector, moved);
+    if (value < least && length(moved) <= reach) {
+      least = value;
+      best.centre = centre;
+    }
+    const Point gradient = vector - (radius > 0 ? area / radius : 0) * out;
+    const double slope = length(gradient);
+    if (!(slope > 0)) break;
+    centre = centre - (reach / (2 + step) / slope) * gradient;
+  }
+  return points.around(best.centre);
 }
 
 }  // namespace medial_vk

@@ -21,10 +21,25 @@ class CarriedBalls {
   /// In the present frame of the surface: a ball that holds all its patches, in exact arithmetic. Without patches: of
   /// radius 0, at the last centre.
   Ball ball(const MovingSurface& surface, std::size_t i) const;
+  /// The same at another centre, at most `reach` away, at which the union has a smaller volume to first order: where
+  /// the least of `area` times the radius, plus the product of `vector` and the centre, is found in a few steps. `area`
+  /// and `vector`: of `ball` on the envelope, as those of BallUnion.
+  Ball shifted(const MovingSurface& surface, std::size_t i, const Ball& ball, double area, const Point& vector,
+               double reach) const;
 
  private:
+  /// The corners of a ball's patches.
+  struct Held {
+    std::vector<Point> points;
+    double greatest = 0;  ///< Coordinate of a corner of their triangles.
+
+    const Point& farthest(const Point& from) const;
+    Ball around(const Point& centre) const;
+  };
+
   void prepare(const MovingSurface& surface, std::size_t i, double radius);
   Point carried(const MovingSurface& surface, std::size_t i) const;
+  Held held(const MovingSurface& surface, std::size_t i) const;
 
   Patches patches_;
   std::vector<Point> centres_;
@@ -32,9 +47,5 @@ class CarriedBalls {
   std::vector<double> mean_shares_, shares_;  // by corner
   std::vector<double> normal_shares_;         // by patch
 };
-
-/// At `centre`, a ball that holds points computed by point_of() from coordinates of at most `greatest`, the farthest of
-/// which is computed to be at `distance`.
-Ball ball_around_points(const Point& centre, double distance, double greatest);
 
 }  // namespace medial_vk

@@ -18,6 +18,10 @@
 namespace medial_vk {
 namespace {
 
+constexpr std::size_t kAtOnce = 16;  // balls that one thread takes at a time
+/// By which a ball moves in its first step, as a share of its radius.
+constexpr double kFirstReach = 0.1;
+
 Status check_balls(std::span<const Ball> balls) {
   constexpr double kMost = MovingSurface::kGreatestCoordinate;
   constexpr std::size_t kMostBalls = 1u << 24;
@@ -62,13 +66,14 @@ class CoverFollower::Impl {
   /// Balls that a division leaves with less to hold shrink, which changes where the next division is.
   Status tighten() {
     constexpr int kRounds = 4;
+    constexpr std::uint32_t kSteps = 4;
     Result<double> volume = volume_of(balls_);
     if (!volume) return volume.error();
     double least = volume.value();
     std::vector<Ball> present = balls_;
     for (int round = 0; round < kRounds; ++round) {
       std::shared_ptr<const CarriedBalls> carried = divided(present);
-      Result<CoverState> state = cover(*carried, present);
+      Result<CoverState> state = cover(*carried, std::max(options_.steps, kSteps), present);
       if (!state) return state.error();
       volume = volume_of(present);
       if (!volume) return volume.error();
@@ -104,11 +109,35 @@ class CoverFollower::Impl {
         surface_, divide_boundary(surface_.vertices(), surface_.triangles(), balls, options_.threads), balls);
   }
 
+  /// Steps of all balls at once towards a smaller volume; shorter ones after one that has not led there.
+  Status shrink(const CarriedBalls& carried, std::uint32_t steps, std::vector<Ball>& balls) const {
+    if (steps == 0) return {};
+    Result<BallUnion> present = measure_ball_union(balls, BallUnionOptions{options_.threads});
+    if (!present) return present.error();
+    std::vector<Ball> next(balls.size());
+    double share = kFirstReach;
+    for (std::uint32_t step = 0; step < steps; ++step) {
+      const BallUnion& exposed = present.value();
+      parallel_for(balls.size(), kAtOnce, options_.threads, [&](std::size_t i) {
+        next[i] = carried.shifted(surface_, i, balls[i], exposed.areas[i], exposed.vectors[i], share * balls[i].radius);
+      });
+      Result<BallUnion> measured = measure_ball_union(next, BallUnionOptions{options_.threads});
+      if (!measured) return measured.error();
+      if (measured.value().volume < exposed.volume) {
+        std::ranges::copy(next, balls.begin());
+        present = std::move(measured);
+      } else {
+        share *= 0.5;
+      }
+    }
+    return {};
+  }
+
   /// The balls of the present frame replace `balls`.
-  Result<CoverState> cover(const CarriedBalls& carried, std::vector<Ball>& balls) const {
-    constexpr std::size_t kAtOnce = 16;  // balls that one thread takes at a time
+  Result<CoverState> cover(const CarriedBalls& carried, std::uint32_t steps, std::vector<Ball>& balls) const {
     parallel_for(carried.size(), kAtOnce, options_.threads,
                  [&](std::size_t i) { balls[i] = carried.ball(surface_, i); });
+    if (Status status = shrink(carried, steps, balls); !status) return status.error();
     if (options_.surface_only || !surface_.is_closed()) return CoverState::kSurface;
     const Result<bool> filled = fill_cavities(surface_, balls, options_.threads);
     if (!filled) return filled.error();
@@ -117,7 +146,7 @@ class CoverFollower::Impl {
 
   Status follow() {
     std::vector<Ball> present = balls_;
-    const Result<CoverState> state = cover(*carried_, present);
+    const Result<CoverState> state = cover(*carried_, options_.steps, present);
     if (!state) return state.error();
     std::ranges::copy(present, balls_.begin());
     state_ = state.value();

@@ -93,8 +93,8 @@ class TriangleDivision {
     return farthest(part, tree_.balls()[ball].centre) - tree_.balls()[ball].radius;
   }
 
-  /// No ball without |m - c| - r <= g + a can take a part, with m the middle and a the reach of this one, and g the least
-  /// growth for it: parts reach at least as far from c as their middles, and need no more growth than the whole.
+  /// No ball without |m - c| - r <= g + a can take a part, with m the middle and a the reach of this one, and g the
+  /// least growth for it: parts reach at least as far from c as their middles, and need no more growth than the whole.
   void divide(const Places& places, const std::vector<std::uint32_t>& near, int depth, std::vector<Share>& shares) {
     const std::array<Point, 3> part = points_of(places);
     std::uint32_t best = near.front();
@@ -123,9 +123,8 @@ class TriangleDivision {
   }
 
   void give(std::uint32_t ball, const Places& places, std::vector<Share>& shares) const {
-    auto share = std::find_if(shares.rbegin(), shares.rend(), [&](const Share& each) {
-      return each.triangle != triangle_ || each.ball == ball;
-    });
+    auto share = std::find_if(shares.rbegin(), shares.rend(),
+                              [&](const Share& each) { return each.triangle != triangle_ || each.ball == ball; });
     if (share == shares.rend() || share->triangle != triangle_) {
       shares.push_back({ball, triangle_, 0, {}});
       share = shares.rbegin();
