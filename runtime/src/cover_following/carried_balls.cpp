@@ -12,6 +12,9 @@ namespace {
 
 constexpr double kRounding = 0x1p-53;
 
+/// By which radii are greater than they need to be: shares of the longest side, and units of the greatest coordinate.
+constexpr double kRoomOfSide = 1e-9, kRoomOfCoordinate = 256;
+
 /// The length by which a normal counts as an edge, as a share of the radius.
 constexpr double kNormalLength = 0.5;
 
@@ -38,10 +41,9 @@ const Point& CarriedBalls::Held::farthest(const Point& from) const {
   return points[out];
 }
 
-/// Three products and two sums, all of at most `greatest`, are rounded in each coordinate of a point: its error is
-/// below 7 units of `greatest`. Its distance has a relative error of 4 units, and so has the radius.
+/// Distances have relative errors of 4 units, and so has the radius.
 Ball CarriedBalls::Held::around(const Point& centre) const {
-  return {centre, length(farthest(centre) - centre) * (1 + 16 * kRounding) + 8 * kRounding * greatest};
+  return {centre, length(farthest(centre) - centre) * (1 + 16 * kRounding) + room};
 }
 
 CarriedBalls::CarriedBalls(const MovingSurface& surface, Patches patches, std::span<const Ball> balls)
@@ -110,15 +112,20 @@ Point CarriedBalls::carried(const MovingSurface& surface, std::size_t i) const {
   return mean + (moved - sum * mean);
 }
 
+/// Three products and two sums, all of at most the greatest coordinate, are rounded in each coordinate of a point,
+/// whose error is then below 7 units of it. The room is much greater than that, so that proofs by division into parts
+/// end.
 CarriedBalls::Held CarriedBalls::held(const MovingSurface& surface, std::size_t i) const {
   Held held;
+  double greatest = 0;
   for (const Patch& patch : patches_.of(i)) {
     const Corners3 corners = surface.corners(patch.triangle);
-    held.greatest = std::max(held.greatest, greatest_coordinate(corners));
+    greatest = std::max(greatest, greatest_coordinate(corners));
     for (std::uint32_t k = patch.first; k < patch.first + patch.count; ++k) {
       held.points.push_back(point_of(patches_.corners[k], corners));
     }
   }
+  held.room = kRoomOfSide * surface.longest_side() + kRoomOfCoordinate * kRounding * greatest;
   return held;
 }
 

@@ -31,7 +31,7 @@ class CarriedBalls {
   /// The corners of a ball's patches.
   struct Held {
     std::vector<Point> points;
-    double greatest = 0;  ///< Coordinate of a corner of their triangles.
+    double room = 0;  ///< To add to a radius.
 
     const Point& farthest(const Point& from) const;
     Ball around(const Point& centre) const;

@@ -44,9 +44,11 @@ std::vector<Cavity> cavities_of(const MovingSurface& surface, const Envelope& en
       root[std::max(a, b)] = std::min(a, b);
     }
   }
+  // A ball that holds a vertex by more than the tolerance takes it out of the envelope.
+  const double room = 4 * envelope.tolerance();
   std::map<std::uint32_t, Cavity> by_root;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    if (errors[i] >= 0) by_root[root_of(vertices[i].balls[0])].push_back({vertices[i].at, errors[i]});
+    if (errors[i] >= 0) by_root[root_of(vertices[i].balls[0])].push_back({vertices[i].at, errors[i] + room});
   }
   std::vector<Cavity> cavities;
   cavities.reserve(by_root.size());
