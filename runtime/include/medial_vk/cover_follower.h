@@ -14,8 +14,10 @@ namespace medial_vk {
 
 /// What the balls of the present frame are proved to hold.
 enum class CoverState : std::uint8_t {
-  kSolid,    ///< Every point whose winding number is not 0, and every triangle.
-  kSurface,  ///< Every triangle. Of a mesh that is not closed, and with CoverFollowerOptions::surface_only.
+  kSolid,  ///< Every point whose winding number is not 0, and every triangle.
+  /// Every triangle. Of a mesh that is not closed, with CoverFollowerOptions::surface_only, and where the longest side
+  /// is below 1e-18 or a ball reaches beyond 1e18.
+  kSurface,
 };
 
 struct CoverFollowerOptions {

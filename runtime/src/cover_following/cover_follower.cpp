@@ -138,10 +138,19 @@ class CoverFollower::Impl {
     parallel_for(carried.size(), kAtOnce, options_.threads,
                  [&](std::size_t i) { balls[i] = carried.ball(surface_, i); });
     if (Status status = shrink(carried, steps, balls); !status) return status.error();
-    if (options_.surface_only || !surface_.is_closed()) return CoverState::kSurface;
+    if (options_.surface_only || !surface_.is_closed() || !has_usual_size(balls)) return CoverState::kSurface;
     const Result<bool> filled = fill_cavities(surface_, balls, options_.threads);
     if (!filled) return filled.error();
     return filled.value() ? CoverState::kSolid : CoverState::kSurface;
+  }
+
+  /// Products of six lengths, which the vertices of the envelope take, keep their digits.
+  bool has_usual_size(std::span<const Ball> balls) const {
+    constexpr double kMost = 1e18, kLeast = 1e-18;
+    return surface_.longest_side() >= kLeast && std::ranges::all_of(balls, [](const Ball& ball) {
+             return ball.radius <= kMost &&
+                    std::ranges::all_of(ball.centre, [](double x) { return std::fabs(x) <= kMost; });
+           });
   }
 
   Status follow() {
