@@ -1,12 +1,13 @@
 #include "cover_following/cavities.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numeric>
-#include <span>
 #include <utility>
 
 #include "base/parallel.h"
@@ -21,9 +22,38 @@ namespace {
 /// Points that a ball must hold, with bounds of their errors, as balls.
 using Cavity = std::vector<Ball>;
 
-/// The vertices of the envelope that may lie on a cavity in the solid; each component of those that share balls by
-/// itself.
-std::vector<Cavity> cavities_of(const MovingSurface& surface, const Envelope& envelope, unsigned threads) {
+/// How vertices are divided into cavities: those that arcs may join, those that share a ball, or none.
+enum class Joined : std::uint8_t { kByArcs, kByBalls, kAll };
+
+/// The sets of indices of vertices, each in ascending order.
+std::vector<std::vector<std::size_t>> groups_of(const std::vector<EnvelopeVertex>& vertices, Joined joined) {
+  std::vector<std::size_t> root(vertices.size());
+  std::iota(root.begin(), root.end(), std::size_t{0});
+  const auto root_of = [&](std::size_t i) {
+    while (root[i] != i) i = root[i] = root[root[i]];
+    return i;
+  };
+  std::map<std::array<std::uint32_t, 2>, std::size_t> first;  // vertex with these balls
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const auto& [a, b, c] = vertices[i].balls;
+    const std::array<std::array<std::uint32_t, 2>, 3> arcs = {{{a, b}, {b, c}, {a, c}}},
+                                                      balls = {{{a, a}, {b, b}, {c, c}}};
+    const std::array<std::array<std::uint32_t, 2>, 3> all = {};
+    for (const auto& key : joined == Joined::kByArcs ? arcs : joined == Joined::kByBalls ? balls : all) {
+      const std::size_t other = root_of(first.try_emplace(key, i).first->second), own = root_of(i);
+      root[std::max(own, other)] = std::min(own, other);
+    }
+  }
+  std::map<std::size_t, std::vector<std::size_t>> by_root;
+  for (std::size_t i = 0; i < vertices.size(); ++i) by_root[root_of(i)].push_back(i);
+  std::vector<std::vector<std::size_t>> groups;
+  for (auto& [least, group] : by_root) groups.push_back(std::move(group));
+  return groups;
+}
+
+/// The vertices of the envelope that may lie on a cavity in the solid.
+std::vector<Cavity> cavities_of(const MovingSurface& surface, const Envelope& envelope, Joined joined,
+                                unsigned threads) {
   constexpr std::size_t kAtOnce = 16;
   const std::vector<EnvelopeVertex>& vertices = envelope.vertices();
   std::vector<double> errors(vertices.size());  // negative: not in the solid
@@ -31,28 +61,20 @@ std::vector<Cavity> cavities_of(const MovingSurface& surface, const Envelope& en
     const double error = vertex_error(envelope, vertices[i]) + 2 * surface.rounding();
     errors[i] = std::isfinite(error) && surface.is_known_outside(vertices[i].at, error) ? -1 : error;
   });
-  std::vector<std::uint32_t> root(envelope.tree().balls().size());
-  std::iota(root.begin(), root.end(), 0u);
-  const auto root_of = [&](std::uint32_t ball) {
-    while (root[ball] != ball) ball = root[ball] = root[root[ball]];
-    return ball;
-  };
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    if (errors[i] < 0) continue;
-    for (const std::uint32_t ball : vertices[i].balls) {
-      const std::uint32_t a = root_of(ball), b = root_of(vertices[i].balls[0]);
-      root[std::max(a, b)] = std::min(a, b);
-    }
-  }
   // A ball that holds a vertex by more than the tolerance takes it out of the envelope.
   const double room = 4 * envelope.tolerance();
-  std::map<std::uint32_t, Cavity> by_root;
+  std::vector<EnvelopeVertex> inside;
+  Cavity points;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    if (errors[i] >= 0) by_root[root_of(vertices[i].balls[0])].push_back({vertices[i].at, errors[i] + room});
+    if (errors[i] < 0) continue;
+    inside.push_back(vertices[i]);
+    points.push_back({vertices[i].at, errors[i] + room});
   }
   std::vector<Cavity> cavities;
-  cavities.reserve(by_root.size());
-  for (auto& [first, cavity] : by_root) cavities.push_back(std::move(cavity));
+  for (const std::vector<std::size_t>& group : groups_of(inside, joined)) {
+    Cavity& cavity = cavities.emplace_back();
+    for (const std::size_t i : group) cavity.push_back(points[i]);
+  }
   return cavities;
 }
 
@@ -88,28 +110,23 @@ bool fill(const Cavity& cavity, std::vector<Ball>& balls) {
   return true;
 }
 
-Cavity joined(const std::vector<Cavity>& cavities) {
-  Cavity all;
-  for (const Cavity& cavity : cavities) all.insert(all.end(), cavity.begin(), cavity.end());
-  return all;
-}
-
 }  // namespace
 
 Result<bool> fill_cavities(const MovingSurface& surface, std::vector<Ball>& balls, unsigned threads) {
-  constexpr int kRounds = 8;  // the last one fills all that is left by one ball
-  for (int round = 0;; ++round) {
+  constexpr int kByArcs = 4, kRounds = 8;  // in the last one, one ball holds all that is left
+  for (int round = 0; round < kRounds; ++round) {
     std::vector<Ball> holding;
     std::ranges::copy_if(balls, std::back_inserter(holding), [](const Ball& ball) { return ball.radius > 0; });
     const Result<Envelope> envelope = Envelope::build(holding, threads);
     if (!envelope) return envelope.error();
-    const std::vector<Cavity> cavities = cavities_of(surface, envelope.value(), threads);
-    if (cavities.empty()) return true;
-    if (round + 1 == kRounds) return fill(joined(cavities), balls);
+    const Joined joined = round + 1 == kRounds ? Joined::kAll : round < kByArcs ? Joined::kByArcs : Joined::kByBalls;
+    const std::vector<Cavity> cavities = cavities_of(surface, envelope.value(), joined, threads);
     for (const Cavity& cavity : cavities) {
       if (!fill(cavity, balls)) return false;
     }
+    if (cavities.empty()) return true;
   }
+  return true;
 }
 
 }  // namespace medial_vk
