@@ -87,21 +87,23 @@ double radius_to_hold(const Point& centre, const Cavity& cavity) {
   return radius;
 }
 
-/// The ball whose cube of the radius grows least holds the cavity. False: its points are not known.
-bool fill(const Cavity& cavity, std::vector<Ball>& balls) {
+/// The ball whose cube of the radius grows least holds the cavity. One of radius 0 is placed in its middle, and has no
+/// less than `least_radius`. False: the points of the cavity are not known.
+bool fill(const Cavity& cavity, double least_radius, std::vector<Ball>& balls) {
   const auto cube = [](double x) { return x * x * x; };
   std::vector<Point> points;
   for (const Ball& point : cavity) points.push_back(point.centre);
   const Point middle = smallest_ball(points).centre;
   std::size_t best = balls.size();
   Ball filled;
-  double least = std::numeric_limits<double>::infinity();
+  double least_cost = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < balls.size(); ++i) {
     const Point& centre = balls[i].radius > 0 ? balls[i].centre : middle;
-    const double radius = std::max(balls[i].radius, radius_to_hold(centre, cavity));
+    const double room = balls[i].radius > 0 ? balls[i].radius : least_radius;
+    const double radius = std::max(room, radius_to_hold(centre, cavity));
     const double cost = cube(radius) - cube(balls[i].radius);
-    if (!(cost < least)) continue;
-    least = cost;
+    if (!(cost < least_cost)) continue;
+    least_cost = cost;
     best = i;
     filled = {centre, radius};
   }
@@ -113,6 +115,7 @@ bool fill(const Cavity& cavity, std::vector<Ball>& balls) {
 }  // namespace
 
 Result<bool> fill_cavities(const MovingSurface& surface, std::vector<Ball>& balls, unsigned threads) {
+  constexpr double kLeastShare = 1e-3;     // of the longest side; points that tiny spheres share have great errors
   constexpr int kByArcs = 4, kRounds = 8;  // in the last one, one ball holds all that is left
   for (int round = 0; round < kRounds; ++round) {
     std::vector<Ball> holding;
@@ -122,7 +125,7 @@ Result<bool> fill_cavities(const MovingSurface& surface, std::vector<Ball>& ball
     const Joined joined = round + 1 == kRounds ? Joined::kAll : round < kByArcs ? Joined::kByArcs : Joined::kByBalls;
     const std::vector<Cavity> cavities = cavities_of(surface, envelope.value(), joined, threads);
     for (const Cavity& cavity : cavities) {
-      if (!fill(cavity, balls)) return false;
+      if (!fill(cavity, kLeastShare * surface.longest_side(), balls)) return false;
     }
     if (cavities.empty()) return true;
   }
