@@ -37,8 +37,7 @@ std::int64_t doubled_area(const Place& a, const Place& b, const Place& c) {
 /// The corners of the convex hull replace the places. (Andrew's monotone chain)
 void keep_hull(std::vector<Place>& places) {
   std::ranges::sort(places);
-  const auto repeated = std::ranges::unique(places);
-  places.erase(repeated.begin(), repeated.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());  // clang 14 cannot read std::ranges::unique
   std::vector<Place> hull;
   const auto append = [&](const Place& place, std::size_t from) {
     while (hull.size() >= from + 2 && doubled_area(hull[hull.size() - 2], hull.back(), place) <= 0) hull.pop_back();

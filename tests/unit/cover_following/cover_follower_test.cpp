@@ -164,12 +164,21 @@ TEST(CoverFollower, ASpareBallFillsACavity) {
 }
 
 TEST(CoverFollower, ACavityOfTheSolidStaysEmpty) {
-  const CoverExample example(test::make_shell(400, 200), 0.2);
+  // Balls along the middle of the wall, each of which holds both sides of it.
+  CoverExample example(test::make_shell(400, 200), 1);
+  example.balls.clear();
+  constexpr int kCount = 300;
+  for (int i = 0; i < kCount; ++i) {
+    const double z = 1 - (2 * i + 1.0) / kCount, across = std::sqrt(1 - z * z), angle = 2.399963 * i;
+    example.balls.push_back({0.85 * Point{across * std::cos(angle), across * std::sin(angle), z}, 0.3});
+  }
   CoverFollower follower = example.follower();
   for (const double time : {0.0, 1.0}) {
     const CoverFrame frame = test::moved_vertices(example.rest(), test::Motion::kSquash, time);
     ASSERT_TRUE(follower.update(frame).ok());
     EXPECT_FALSE(any_holds(follower.balls(), {0, 0, 0})) << time;
+    const auto complex = measure_ball_union(follower.balls(), {0, true}).value().complex;
+    EXPECT_EQ(betti_numbers(complex).value().cavities, 1u) << time;
     expect_cover(follower, example.mesh, frame, "shell");
   }
 }
