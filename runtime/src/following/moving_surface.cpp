@@ -39,18 +39,19 @@ double signed_volume(std::span<const Point> vertices, std::span<const Triangle> 
 
 }  // namespace
 
-MovingSurface::MovingSurface(const IndexedMesh& rest, Bvh bvh)
+MovingSurface::MovingSurface(const IndexedMesh& rest, Bvh bvh, Sides sides)
     : rest_(rest),
+      sides_(sides),
       vertices_(rest.view().vertices.begin(), rest.view().vertices.end()),
       last_vertices_(vertices_),
       bvh_(std::move(bvh)),
       wide_(bvh_) {}
 
-Result<MovingSurface> MovingSurface::build(const IndexedMesh& rest) {
+Result<MovingSurface> MovingSurface::build(const IndexedMesh& rest, Sides sides) {
   constexpr std::uint32_t kLeafSize = 4;
   Result<Bvh> bvh = refined_tree(rest.bvh(), kLeafSize);
   if (!bvh) return bvh.error();
-  MovingSurface surface(rest, std::move(bvh).value());
+  MovingSurface surface(rest, std::move(bvh).value(), sides);
   if (Status status = check_size(surface.bvh_.nodes().front().box); !status) return status.error();
   if (Status status = surface.measure(1); !status) return status.error();
   surface.last_front_ = surface.rest_front_ = surface.front_;
@@ -90,7 +91,7 @@ Status MovingSurface::measure(unsigned threads) {
   const double volume = signed_volume(vertices_, triangles(), box);
   front_ = is_closed() && volume < 0 ? -1 : 1;
   volume_ = std::fabs(volume);
-  if (is_closed()) return {};
+  if (is_closed() || sides_ == Sides::kUnneeded) return {};
   IndexedMesh moved = rest_;
   if (Status status = moved.move_vertices(vertices_, {{}, threads}); !status) return status;
   Result<Solid> solid = Solid::build(moved);
@@ -110,6 +111,12 @@ bool MovingSurface::contains(const Point& p) const {
 bool MovingSurface::holds(const Ball& ball) const {
   if (is_closed()) return contains(ball.centre);
   return open_solid_->side_around(ball.centre, ball.radius) == SolidSide::kInside;
+}
+
+bool MovingSurface::is_known_outside(const Point& p, double distance) const {
+  const auto number = number_by_rays({&bvh_}, p);
+  if (!number || *number != 0) return false;
+  return !(closest(p, distance).squared_distance < distance * distance);
 }
 
 }  // namespace medial_vk

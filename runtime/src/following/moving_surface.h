@@ -21,8 +21,11 @@ class MovingSurface {
   /// so that the bounds of rounding hold.
   static constexpr double kLeastSide = 1e-60, kGreatestCoordinate = 1e60;
 
+  /// Whether contains() and holds() are called. Without them, frames of meshes that are not closed take less time.
+  enum class Sides : std::uint8_t { kNeeded, kUnneeded };
+
   /// Throws std::bad_alloc. Errors: kInvalidMesh (as move()), kOutOfMemory.
-  static Result<MovingSurface> build(const IndexedMesh& rest);
+  static Result<MovingSurface> build(const IndexedMesh& rest, Sides sides = Sides::kNeeded);
 
   /// The next frame. Errors: kInvalidMesh (another number of vertices, a coordinate that is not finite, a size beyond
   /// kLeastSide and kGreatestCoordinate; the surface is unchanged), kOutOfMemory.
@@ -70,9 +73,12 @@ class MovingSurface {
   bool contains(const Point& p) const;
   /// True if the ball, which the boundary does not meet, is known to lie inside.
   bool holds(const Ball& ball) const;
+  /// True if no point of the boundary of a closed mesh is known to be closer than `distance`, at least rounding(), and
+  /// the winding number is known to be 0.
+  bool is_known_outside(const Point& p, double distance) const;
 
  private:
-  MovingSurface(const IndexedMesh& rest, Bvh bvh);
+  MovingSurface(const IndexedMesh& rest, Bvh bvh, Sides sides);
   Corners3 corners_of(std::span<const Point> vertices, std::uint32_t triangle) const {
     const Triangle& t = rest_.view().triangles[triangle];
     return {vertices[t[0]], vertices[t[1]], vertices[t[2]]};
@@ -80,6 +86,7 @@ class MovingSurface {
   Status measure(unsigned threads);
 
   IndexedMesh rest_;
+  Sides sides_;
   std::vector<Point> vertices_, last_vertices_;
   Bvh bvh_;
   WideTree wide_;

@@ -1,0 +1,206 @@
+#include "medial_vk/cover_follower.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/host_memory.h"
+#include "base/parallel.h"
+#include "cover_following/carried_balls.h"
+#include "cover_following/cavities.h"
+#include "cover_following/patches.h"
+#include "following/moving_surface.h"
+#include "medial_vk/ball_union.h"
+
+namespace medial_vk {
+namespace {
+
+constexpr std::size_t kAtOnce = 16;  // balls that one thread takes at a time
+/// By which a ball moves in its first step, as a share of its radius.
+constexpr double kFirstReach = 0.1;
+
+Status check_balls(std::span<const Ball> balls) {
+  constexpr double kMost = MovingSurface::kGreatestCoordinate;
+  constexpr std::size_t kMostBalls = 1u << 24;
+  const auto usage = [](const std::string& message) { return Error{ErrorCode::kUsage, message}; };
+  if (balls.size() > kMostBalls) return usage("more than 2^24 balls cannot follow a mesh");
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    const Ball& ball = balls[i];
+    const bool is_in_range = std::ranges::all_of(ball.centre, [](double x) { return std::fabs(x) <= 2 * kMost; });
+    if (is_in_range && ball.radius >= 0 && ball.radius <= 2 * kMost) continue;
+    return usage("ball " + std::to_string(i) + " has a number that is out of range");
+  }
+  if (std::ranges::any_of(balls, [](const Ball& ball) { return ball.radius > 0; })) return {};
+  return usage("there is no ball to cover the mesh");
+}
+
+}  // namespace
+
+class CoverFollower::Impl {
+ public:
+  static Result<std::unique_ptr<Impl>> create(const IndexedMesh& rest, std::span<const Ball> balls,
+                                              const CoverFollowerOptions& options) {
+    Result<MovingSurface> surface = MovingSurface::build(rest, MovingSurface::Sides::kUnneeded);
+    if (!surface) return surface.error();
+    std::unique_ptr<Impl> impl(new Impl(std::move(surface).value(), options));
+    impl->rest_ = impl->carried_ = impl->divided(balls);
+    impl->balls_.resize(balls.size());
+    if (Status status = impl->follow(); !status) return status.error();
+    return impl;
+  }
+
+  Status update(std::span<const Point> vertices) {
+    if (Status status = surface_.move(vertices, options_.threads); !status) return status;
+    return follow();
+  }
+
+  Status reset() {
+    if (Status status = surface_.return_to_rest(options_.threads); !status) return status;
+    carried_ = rest_;
+    return follow();
+  }
+
+  /// Balls that a division leaves with less to hold shrink, which changes where the next division is.
+  Status tighten() {
+    constexpr int kRounds = 4;
+    constexpr std::uint32_t kSteps = 4;
+    Result<double> volume = volume_of(balls_);
+    if (!volume) return volume.error();
+    double least = volume.value();
+    std::vector<Ball> present = balls_;
+    for (int round = 0; round < kRounds; ++round) {
+      std::shared_ptr<const CarriedBalls> carried = divided(present);
+      Result<CoverState> state = cover(*carried, std::max(options_.steps, kSteps), present);
+      if (!state) return state.error();
+      volume = volume_of(present);
+      if (!volume) return volume.error();
+      if (!(volume.value() < least) || state.value() != state_) break;
+      least = volume.value();
+      std::ranges::copy(present, balls_.begin());
+      carried_ = std::move(carried);
+    }
+    return {};
+  }
+
+  std::span<const Ball> balls() const { return balls_; }
+  CoverState state() const { return state_; }
+
+  Result<CoverFollowMeasures> measure() const {
+    Result<double> volume = volume_of(balls_);
+    if (!volume) return volume.error();
+    return CoverFollowMeasures{surface_.volume(), volume.value()};
+  }
+
+ private:
+  Impl(MovingSurface surface, const CoverFollowerOptions& options) : surface_(std::move(surface)), options_(options) {}
+
+  Result<double> volume_of(std::span<const Ball> balls) const {
+    Result<BallUnion> measured = measure_ball_union(balls, BallUnionOptions{options_.threads});
+    if (!measured) return measured.error();
+    return measured.value().volume;
+  }
+
+  /// The boundary of the present frame, divided among these balls.
+  std::shared_ptr<const CarriedBalls> divided(std::span<const Ball> balls) const {
+    return std::make_shared<const CarriedBalls>(
+        surface_, divide_boundary(surface_.vertices(), surface_.triangles(), balls, options_.threads), balls);
+  }
+
+  /// Steps of all balls at once towards a smaller volume; shorter ones after one that has not led there.
+  Status shrink(const CarriedBalls& carried, std::uint32_t steps, std::vector<Ball>& balls) const {
+    if (steps == 0) return {};
+    Result<BallUnion> present = measure_ball_union(balls, BallUnionOptions{options_.threads});
+    if (!present) return present.error();
+    std::vector<Ball> next(balls.size());
+    double share = kFirstReach;
+    for (std::uint32_t step = 0; step < steps; ++step) {
+      const BallUnion& exposed = present.value();
+      parallel_for(balls.size(), kAtOnce, options_.threads, [&](std::size_t i) {
+        next[i] = carried.shifted(surface_, i, balls[i], exposed.areas[i], exposed.vectors[i], share * balls[i].radius);
+      });
+      Result<BallUnion> measured = measure_ball_union(next, BallUnionOptions{options_.threads});
+      if (!measured) return measured.error();
+      if (measured.value().volume < exposed.volume) {
+        std::ranges::copy(next, balls.begin());
+        present = std::move(measured);
+      } else {
+        share *= 0.5;
+      }
+    }
+    return {};
+  }
+
+  /// The balls of the present frame replace `balls`.
+  Result<CoverState> cover(const CarriedBalls& carried, std::uint32_t steps, std::vector<Ball>& balls) const {
+    parallel_for(carried.size(), kAtOnce, options_.threads,
+                 [&](std::size_t i) { balls[i] = carried.ball(surface_, i); });
+    if (Status status = shrink(carried, steps, balls); !status) return status.error();
+    if (options_.surface_only || !surface_.is_closed() || !has_usual_size(balls)) return CoverState::kSurface;
+    const Result<bool> filled = fill_cavities(surface_, balls, options_.threads);
+    if (!filled) return filled.error();
+    return filled.value() ? CoverState::kSolid : CoverState::kSurface;
+  }
+
+  /// Products of six lengths, which the vertices of the envelope take, keep their digits.
+  bool has_usual_size(std::span<const Ball> balls) const {
+    constexpr double kMost = 1e18, kLeast = 1e-18;
+    return surface_.longest_side() >= kLeast && std::ranges::all_of(balls, [](const Ball& ball) {
+             return ball.radius <= kMost &&
+                    std::ranges::all_of(ball.centre, [](double x) { return std::fabs(x) <= kMost; });
+           });
+  }
+
+  Status follow() {
+    std::vector<Ball> present = balls_;
+    const Result<CoverState> state = cover(*carried_, options_.steps, present);
+    if (!state) return state.error();
+    std::ranges::copy(present, balls_.begin());
+    state_ = state.value();
+    return {};
+  }
+
+  MovingSurface surface_;
+  CoverFollowerOptions options_;
+  std::shared_ptr<const CarriedBalls> rest_, carried_;  // of the rest pose; of the frame of the last tighten()
+  std::vector<Ball> balls_;
+  CoverState state_ = CoverState::kSurface;
+};
+
+CoverFollower::CoverFollower(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+CoverFollower::CoverFollower(CoverFollower&&) noexcept = default;
+CoverFollower& CoverFollower::operator=(CoverFollower&&) noexcept = default;
+CoverFollower::~CoverFollower() = default;
+
+Result<CoverFollower> CoverFollower::create(const IndexedMesh& rest, std::span<const Ball> balls,
+                                            const CoverFollowerOptions& options) {
+  if (Status status = check_balls(balls); !status) return status.error();
+  return catch_out_of_memory("preparing a cover to follow a mesh", [&]() -> Result<CoverFollower> {
+    Result<std::unique_ptr<Impl>> impl = Impl::create(rest, balls, options);
+    if (!impl) return impl.error();
+    return CoverFollower(std::move(impl).value());
+  });
+}
+
+Status CoverFollower::update(std::span<const Point> vertices) {
+  return catch_out_of_memory("moving a cover with a mesh", [&] { return impl_->update(vertices); });
+}
+
+Status CoverFollower::reset() {
+  return catch_out_of_memory("returning a cover to the rest pose", [&] { return impl_->reset(); });
+}
+
+Status CoverFollower::tighten() {
+  return catch_out_of_memory("dividing a surface among balls", [&] { return impl_->tighten(); });
+}
+
+std::span<const Ball> CoverFollower::balls() const { return impl_->balls(); }
+CoverState CoverFollower::state() const { return impl_->state(); }
+
+Result<CoverFollowMeasures> CoverFollower::measure() const {
+  return catch_out_of_memory("measuring a cover that follows a mesh", [&] { return impl_->measure(); });
+}
+
+}  // namespace medial_vk
