@@ -53,8 +53,9 @@ struct RiggedFrame {
 
 /// Binds balls to the joints: of those that move the surface near a ball at rest, up to kMostInfluences, with the
 /// weights for which the centre comes nearest to that of the ball that follows the mesh, in the least squares over all
-/// frames; or to that one of them with which it comes nearest. At rest both are the same. `frames` begins with the rest pose; `vertices` are those of the mesh there, as
-/// the rig has them. The radii are still to be limited. `goes_on` gets the finished share and returns false to stop.
+/// frames; or to that one of them with which it comes nearest. At rest both are the same. `frames` begins with the rest
+/// pose; `vertices` are those of the mesh there, as the rig has them. The radii are still to be limited. `goes_on` gets
+/// the finished share and returns false to stop.
 BallRig bind_balls(const MotionRig& rig, std::span<const Point> vertices, std::span<const RiggedFrame> frames,
                    BallBinding binding, const std::function<bool(double)>& goes_on);
 
