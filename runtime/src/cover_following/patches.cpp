@@ -96,19 +96,22 @@ class TriangleDivision {
   /// least growth for it: parts reach at least as far from c as their middles, and need no more growth than the whole.
   void divide(const Places& places, const std::vector<std::uint32_t>& near, int depth, std::vector<Share>& shares) {
     const std::array<Point, 3> part = points_of(places);
+    const Point middle = middle_of(part);
     std::uint32_t best = near.front();
-    double least = std::numeric_limits<double>::infinity();
+    double least = std::numeric_limits<double>::infinity(), of_middle = least;
     for (const std::uint32_t ball : near) {
+      of_middle = std::min(of_middle, length(middle - tree_.balls()[ball].centre) - tree_.balls()[ball].radius);
       const double growth = growth_of(ball, part);
       if (growth >= least) continue;
       least = growth;
       best = ball;
     }
-    if (depth == kHalvings || least <= kGrowthForAPart * tree_.balls()[best].radius) {
+    const bool is_held = least <= kGrowthForAPart * tree_.balls()[best].radius;
+    // A ball must grow for some part of it at least by what its middle needs.
+    if (depth == kHalvings || is_held || least <= 2 * of_middle) {
       give(number_[best], places, shares);
       return;
     }
-    const Point middle = middle_of(part);
     const double limit = least + farthest(part, middle);
     std::vector<std::uint32_t> nearer;
     for (const std::uint32_t ball : near) {
