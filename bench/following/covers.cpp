@@ -1,11 +1,13 @@
 // Covers that follow a mesh through five motions: rows of a table.
-//   bench_following_covers [--frames N] [--repeats N] [--threads N] [--state] MESH BALLS.csv
+//   bench_following_covers [--frames N] [--repeats N] [--steps N] [--threads N] MESH BALLS.csv
 // For each motion: the volume of the balls over that of the solid in the rest pose, at its end, and there after
-// tighten(); the median time of a frame, of one whose surface alone is covered, and of tighten().
+// tighten(); how many frames are proved; the median time of a frame, of one whose surface alone is covered, and the
+// time of tighten(), in milliseconds.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -56,9 +58,11 @@ int main(int argc, char** argv) {
   CLI::App app{"Covers that follow a mesh"};
   std::string mesh_file, ball_file;
   int frame_count = 20, repeats = 1;
+  std::uint32_t steps = 0;
   unsigned threads = 0;
   app.add_option("--frames", frame_count)->check(CLI::PositiveNumber);
   app.add_option("--repeats", repeats)->check(CLI::PositiveNumber);
+  app.add_option("--steps", steps);
   app.add_option("--threads", threads);
   app.add_option("MESH", mesh_file)->required();
   app.add_option("BALLS", ball_file)->required();
@@ -70,7 +74,7 @@ int main(int argc, char** argv) {
     for (int i = 1; i <= frame_count; ++i) {
       frames.push_back(moved_vertices(mesh.view().vertices, motion, static_cast<double>(i) / frame_count));
     }
-    CoverFollower follower = or_exit(CoverFollower::create(mesh, balls, {.threads = threads}));
+    CoverFollower follower = or_exit(CoverFollower::create(mesh, balls, {.steps = steps, .threads = threads}));
     CoverFollower surface = or_exit(CoverFollower::create(mesh, balls, {.surface_only = true, .threads = threads}));
     const double rest = ratio(follower);
     std::size_t proved = 0, none = 0;
