@@ -15,6 +15,7 @@
 #include "fault_test.h"
 #include "lent_device.h"
 #include "medial_vk/ball_union.h"
+#include "medial_vk/cover_follower.h"
 #include "medial_vk/dynamic_union.h"
 #include "medial_vk/foam.h"
 #include "medial_vk/follower.h"
@@ -26,13 +27,13 @@ namespace {
 
 class HostMemory : public FaultTest {
  protected:
-  /// Fails every allocation of the job (fault_stride()), one per run.
-  void fail_every_allocation(const char* name, const std::function<Answer()>& job) {
+  /// Fails every allocation of the job (fault_stride()), or every `stride`-th of them, one per run.
+  void fail_every_allocation(const char* name, const std::function<Answer()>& job, std::uint64_t stride = 1) {
     const Answer expected = job();
     ASSERT_TRUE(expected.ok()) << expected.error().message;
     const auto handles = vulkan().handles();
     std::uint64_t errors = 0, survived = 0;
-    for (std::uint64_t k = 1; !HasFailure(); k += fault_stride()) {
+    for (std::uint64_t k = 1; !HasFailure(); k += stride * fault_stride()) {
       fail_new(k);
       const Answer answer = job();
       const bool failed = stop_failing_new();
@@ -301,6 +302,74 @@ TEST(ParallelBlocks, PassOnWhatABodyThrowsOnceAllThreadsHaveEnded) {
                  std::bad_alloc);
     EXPECT_EQ(running, 0);
   }
+}
+
+std::string bytes_of_balls(std::span<const Ball> balls) {
+  std::string out;
+  for (const Ball& ball : balls) append_bytes(out, ball);
+  return out;
+}
+
+/// The small box with its vertices moved.
+std::vector<Point> bent_box(const IndexedMesh& box) {
+  std::vector<Point> bent(box.view().vertices.begin(), box.view().vertices.end());
+  for (Point& p : bent) p[2] += 0.4 * p[0] * p[0];
+  return bent;
+}
+
+TEST_F(HostMemory, RunsOutInCoversThatFollow) {
+  const IndexedMesh box = indexed(small_box());
+  const std::vector<Point> bent = bent_box(box);
+  std::vector<Ball> balls;
+  for (const Point& p : box.view().vertices) balls.push_back({p, 0.45});
+  CoverFollowerOptions options;
+  options.threads = 1;
+  constexpr std::uint64_t kStride = 101;  // there are some 20,000, and each run takes milliseconds
+  const auto job = [&]() -> Answer {
+    Result<CoverFollower> follower = in_runtime([&] { return CoverFollower::create(box, balls, options); });
+    if (!follower.ok()) return follower.error();
+    const std::string rest = bytes_of_balls(follower.value().balls());
+    if (Status moved = in_runtime([&] { return follower.value().update(bent); }); !moved.ok()) {
+      EXPECT_TRUE(bytes_of_balls(follower.value().balls()) == rest);
+      return moved.error();
+    }
+    const std::string loose = bytes_of_balls(follower.value().balls());
+    if (Status tight = in_runtime([&] { return follower.value().tighten(); }); !tight.ok()) {
+      EXPECT_TRUE(bytes_of_balls(follower.value().balls()) == loose);
+      EXPECT_TRUE(follower.value().update(bent).ok());
+      EXPECT_TRUE(bytes_of_balls(follower.value().balls()) == loose);
+      return tight.error();
+    }
+    return bytes_of_balls(follower.value().balls());
+  };
+  fail_every_allocation("covers that follow", job, kStride);
+}
+
+// After a frame without memory the next one follows the one before.
+TEST_F(HostMemory, RunsOutWhereBallsAreChosenAnew) {
+  const IndexedMesh mesh = indexed(prepare(make_torus(1.0, 0.4, 12, 6)));
+  std::vector<Ball> balls;
+  for (int i = 0; i < 9; ++i) balls.push_back({{std::cos(0.35 * i), std::sin(0.35 * i), 0}, 0.2});
+  std::vector<Point> wide(mesh.view().vertices.begin(), mesh.view().vertices.end());
+  for (Point& p : wide) p[2] *= 3;
+  FollowerOptions options;
+  options.threads = 1;
+  options.renewed = 2;
+  options.renewal_factor = 1;
+  std::size_t chosen = 0;
+  fail_every_allocation("balls chosen anew", [&]() -> Answer {
+    Follower follower = Follower::create(mesh, balls, options).value();
+    const std::string rest = bytes_of_balls(follower.balls());
+    if (Status moved = in_runtime([&] { return follower.update(wide); }); !moved.ok()) {
+      EXPECT_TRUE(bytes_of_balls(follower.balls()) == rest);
+      EXPECT_TRUE(follower.reset().ok());
+      EXPECT_TRUE(bytes_of_balls(follower.balls()) == rest);
+      return moved.error();
+    }
+    chosen = static_cast<std::size_t>(std::ranges::count(follower.origins(), FollowOrigin::kRenewed));
+    return bytes_of_balls(follower.balls());
+  });
+  EXPECT_GT(chosen, 0u);
 }
 
 // A frame writes to memory that create() has allocated.

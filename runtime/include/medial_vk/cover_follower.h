@@ -61,7 +61,8 @@ class CoverFollower {
   /// A frame: the positions of the vertices of IndexedMesh::view(). Triangles may cross, lose their area or turn over;
   /// what is covered then are the points with a winding number other than 0. Errors: kInvalidMesh (another number of
   /// vertices, a coordinate of a triangle that is not finite, a size beyond the limits of create(): nothing has
-  /// changed), kOutOfMemory (balls() are those of the frame before; the next update() or reset() continues).
+  /// changed), kOutOfMemory (balls() are those of the frame before; the next update() or reset() continues, and must
+  /// come before measure() or tighten()).
   Status update(std::span<const Point> vertices);
   /// Returns to the rest pose, and to the division of its boundary among the balls that create() has made. Error:
   /// kOutOfMemory.

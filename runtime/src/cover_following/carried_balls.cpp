@@ -18,6 +18,10 @@ constexpr double kRoomOfSide = 1e-9, kRoomOfCoordinate = 256;
 /// The length by which a normal counts as an edge, as a share of the radius.
 constexpr double kNormalLength = 0.5;
 
+/// In longest sides. A centre that is farther from the patches, as that of a ball far from a mesh may be, would give a
+/// radius that has lost the digits that tell the patches apart.
+constexpr double kFarthest = 1 << 20;
+
 Eigen::Vector3d vector_of(const Point& p) { return {p[0], p[1], p[2]}; }
 
 double greatest_coordinate(const Corners3& corners) {
@@ -59,12 +63,15 @@ CarriedBalls::CarriedBalls(const MovingSurface& surface, Patches patches, std::s
 /// The affine map of least squares, from corners and normals, takes the centre c to m' + H Q^-1 (c - m) with
 /// Q = sum w (p - m)(p - m)^T and H = sum w (p' - m')(p - m)^T: a sum of shares of p' - m'.
 void CarriedBalls::prepare(const MovingSurface& surface, std::size_t i, double radius) {
-  double total = 0;
-  for (const Patch& patch : patches_.of(i)) total += patch.area;
+  double total = 0, corners = 0;
+  for (const Patch& patch : patches_.of(i)) {
+    total += patch.area;
+    corners += patch.count;
+  }
   Point mean{};
   const auto for_corners = [&](const auto& visit) {
     for (const Patch& patch : patches_.of(i)) {
-      const double weight = total > 0 ? patch.area / (total * patch.count) : 0;
+      const double weight = total > 0 ? patch.area / (total * patch.count) : 1 / corners;
       for (std::uint32_t k = patch.first; k < patch.first + patch.count; ++k) {
         visit(k, weight, point_of(patches_.corners[k], surface.corners(patch.triangle)));
       }
@@ -86,7 +93,7 @@ void CarriedBalls::prepare(const MovingSurface& surface, std::size_t i, double r
   }
   squares += (1e-9 * squares.trace()) * Eigen::Matrix3d::Identity();
   const Eigen::Vector3d solved = squares.ldlt().solve(vector_of(centres_[i] - mean));
-  if (!solved.allFinite()) return;  // All patches in one point: the mean it is.
+  if (!solved.allFinite()) return;  // the mean it is
   for_corners(
       [&](std::uint32_t k, double weight, const Point& p) { shares_[k] = weight * vector_of(p - mean).dot(solved); });
   for (std::size_t k = patches_.first[i]; k < patches_.first[i + 1]; ++k) {
@@ -95,21 +102,25 @@ void CarriedBalls::prepare(const MovingSurface& surface, std::size_t i, double r
   }
 }
 
+/// Sums of differences from one of the corners, so that a mesh far from the origin keeps its digits.
 Point CarriedBalls::carried(const MovingSurface& surface, std::size_t i) const {
+  const Point origin = surface.corners(patches_.of(i).front().triangle)[0];
   Point mean{}, moved{};
   double sum = 0;
   for (std::size_t k = patches_.first[i]; k < patches_.first[i + 1]; ++k) {
     const Patch& patch = patches_.patches[k];
     const Corners3 corners = surface.corners(patch.triangle);
     for (std::uint32_t corner = patch.first; corner < patch.first + patch.count; ++corner) {
-      const Point p = point_of(patches_.corners[corner], corners);
+      const Point p = point_of(patches_.corners[corner], corners) - origin;
       mean = mean + mean_shares_[corner] * p;
       moved = moved + shares_[corner] * p;
       sum += shares_[corner];
     }
     moved = moved + normal_shares_[k] * surface.inward_normal(patch.triangle);
   }
-  return mean + (moved - sum * mean);
+  const Point further = moved - sum * mean;
+  const bool is_near = length(further) <= kFarthest * surface.longest_side();  // not if it is no number
+  return origin + (is_near ? mean + further : mean);
 }
 
 /// Three products and two sums, all of at most the greatest coordinate, are rounded in each coordinate of a point,

@@ -17,6 +17,7 @@ class CarriedBalls {
   CarriedBalls(const MovingSurface& surface, Patches patches, std::span<const Ball> balls);
 
   std::size_t size() const { return centres_.size(); }
+  const Patches& patches() const { return patches_; }
   bool has_patches(std::size_t ball) const { return !patches_.of(ball).empty(); }
   /// In the present frame of the surface: a ball that holds all its patches, in exact arithmetic. Without patches: of
   /// radius 0, at the last centre.

@@ -69,19 +69,22 @@ class CoverFollower::Impl {
     constexpr std::uint32_t kSteps = 4;
     Result<double> volume = volume_of(balls_);
     if (!volume) return volume.error();
-    double least = volume.value();
+    Cover best = {carried_, balls_, state_};
     std::vector<Ball> present = balls_;
     for (int round = 0; round < kRounds; ++round) {
-      std::shared_ptr<const CarriedBalls> carried = divided(present);
-      Result<CoverState> state = cover(*carried, std::max(options_.steps, kSteps), present);
-      if (!state) return state.error();
-      volume = volume_of(present);
+      const double least = volume.value();
+      Result<Cover> next = tightened(present, std::max(options_.steps, kSteps));
+      if (!next) return next.error();
+      volume = volume_of(next.value().balls);
       if (!volume) return volume.error();
-      if (!(volume.value() < least) || state.value() != state_) break;
-      least = volume.value();
-      std::ranges::copy(present, balls_.begin());
-      carried_ = std::move(carried);
+      const bool holds_less = best.state == CoverState::kSolid && next.value().state != CoverState::kSolid;
+      if (!(volume.value() < least) || holds_less) break;
+      best = std::move(next).value();
+      present = best.balls;
     }
+    std::ranges::copy(best.balls, balls_.begin());
+    carried_ = std::move(best.carried);
+    state_ = best.state;
     return {};
   }
 
@@ -95,6 +98,12 @@ class CoverFollower::Impl {
   }
 
  private:
+  struct Cover {
+    std::shared_ptr<const CarriedBalls> carried;
+    std::vector<Ball> balls;
+    CoverState state;
+  };
+
   Impl(MovingSurface surface, const CoverFollowerOptions& options) : surface_(std::move(surface)), options_(options) {}
 
   Result<double> volume_of(std::span<const Ball> balls) const {
@@ -133,11 +142,25 @@ class CoverFollower::Impl {
     return {};
   }
 
-  /// The balls of the present frame replace `balls`.
-  Result<CoverState> cover(const CarriedBalls& carried, std::uint32_t steps, std::vector<Ball>& balls) const {
+  /// The boundary of the present frame, divided anew. Later frames begin where the steps have ended.
+  Result<Cover> tightened(std::vector<Ball> balls, std::uint32_t steps) const {
+    std::shared_ptr<const CarriedBalls> carried = divided(balls);
+    if (Status status = place(*carried, steps, balls); !status) return status.error();
+    carried = std::make_shared<const CarriedBalls>(surface_, carried->patches(), balls);
+    const Result<CoverState> state = hold(balls);
+    if (!state) return state.error();
+    return Cover{std::move(carried), std::move(balls), state.value()};
+  }
+
+  /// The balls of the present frame, which hold its triangles, replace `balls`.
+  Status place(const CarriedBalls& carried, std::uint32_t steps, std::vector<Ball>& balls) const {
     parallel_for(carried.size(), kAtOnce, options_.threads,
                  [&](std::size_t i) { balls[i] = carried.ball(surface_, i); });
-    if (Status status = shrink(carried, steps, balls); !status) return status.error();
+    return shrink(carried, steps, balls);
+  }
+
+  /// Fills cavities. What all balls are then proved to hold.
+  Result<CoverState> hold(std::vector<Ball>& balls) const {
     if (options_.surface_only || !surface_.is_closed() || !has_usual_size(balls)) return CoverState::kSurface;
     const Result<bool> filled = fill_cavities(surface_, balls, options_.threads);
     if (!filled) return filled.error();
@@ -155,7 +178,8 @@ class CoverFollower::Impl {
 
   Status follow() {
     std::vector<Ball> present = balls_;
-    const Result<CoverState> state = cover(*carried_, options_.steps, present);
+    if (Status status = place(*carried_, options_.steps, present); !status) return status.error();
+    const Result<CoverState> state = hold(present);
     if (!state) return state.error();
     std::ranges::copy(present, balls_.begin());
     state_ = state.value();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "base/parallel.h"
@@ -73,7 +74,9 @@ class TriangleDivision {
     const std::uint32_t nearest = tree_.nearest(middle).ball;
     const double growth = growth_of(nearest, part);
     tree_.gather(middle, growth + farthest(part, middle), found_);
+    found_.push_back(nearest);  // which the rounding of the limit may leave out
     std::ranges::sort(found_);
+    found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
     divide(whole, found_, 0, shares);
     for (std::size_t i = before; i < shares.size(); ++i) keep_hull(shares[i].corners);
   }
@@ -115,7 +118,8 @@ class TriangleDivision {
     const double limit = least + farthest(part, middle);
     std::vector<std::uint32_t> nearer;
     for (const std::uint32_t ball : near) {
-      if (length(middle - tree_.balls()[ball].centre) - tree_.balls()[ball].radius <= limit) nearer.push_back(ball);
+      const double of_ball = length(middle - tree_.balls()[ball].centre) - tree_.balls()[ball].radius;
+      if (of_ball <= limit || ball == best) nearer.push_back(ball);
     }
     const auto& [a, b, c] = places;
     const Place ab = between(a, b), bc = between(b, c), ca = between(c, a);
@@ -147,6 +151,7 @@ class TriangleDivision {
 Patches divide_boundary(std::span<const Point> vertices, std::span<const Triangle> triangles,
                         std::span<const Ball> balls, unsigned threads) {
   constexpr std::size_t kBlock = 64;  // triangles that one thread takes at a time
+  constexpr std::size_t kMostCorners = 0xf0000000u;
   std::vector<Ball> holding;
   std::vector<std::uint32_t> number;
   for (std::uint32_t i = 0; i < balls.size(); ++i) {
@@ -176,6 +181,7 @@ Patches divide_boundary(std::span<const Point> vertices, std::span<const Triangl
   std::vector<std::uint32_t> next(result.first.begin(), result.first.end() - 1);
   for (const auto& shares : by_block) {
     for (const Share& share : shares) {
+      if (result.corners.size() > kMostCorners) throw std::length_error("corners of patches");
       const std::array<Point, 3> corner = corners_of(share.triangle);
       const double whole = 0.5 * length(cross(corner[1] - corner[0], corner[2] - corner[0]));
       const double part = static_cast<double>(share.area) / (static_cast<double>(kUnits) * kUnits);

@@ -27,6 +27,10 @@ constexpr std::size_t kBlock = 16;  // balls that one thread takes at a time
 /// By which a given ball may reach out of the mesh, as a share of the longest side: that of coordinates in float.
 constexpr double kGivenError = 1e-6;
 
+/// A ball that has been drawn to rest differs from that at rest by 1e-10 of the longest side, and so does the volume
+/// by some 1e-9 of itself: less than this share of the part that is uncovered, if that is a thousandth or more.
+constexpr double kDrawn = 1 + 1e-6;
+
 Status check_options(std::span<const Ball> balls, const FollowerOptions& options, bool is_closed) {
   const auto usage = [](const char* message) { return Error{ErrorCode::kUsage, message}; };
   if (balls.empty()) return usage("there is no ball to follow the mesh");
@@ -178,7 +182,9 @@ class Follower::Impl {
       if (Status status = ascend_all(); !status) return status;
     }
     draw_to_rest();
-    return options_.renewed > 0 ? renew() : Status();
+    if (options_.renewed == 0) return {};
+    if (Status status = return_renewed(); !status) return status;
+    return renew();
   }
 
   Result<BallUnion> measure_present() {
@@ -201,33 +207,40 @@ class Follower::Impl {
       TrackedBall& tracked = tracked_[exchange.ball];
       tracked = exchange.by;
       tracked.rest_radius = tracked.ball.radius;
-      sides_.renew(exchange.ball, exchange.others);
       is_renewed_[exchange.ball] = 1;
       came_[exchange.ball] = FollowOrigin::kRenewed;
+      sides_.renew(exchange.ball, exchange.others);  // only a hint: memory may run out in it
     }
     return {};
   }
 
-  /// Where the surface is as in the rest pose at the places that balls have left, all of them return.
-  void return_renewed() {
+  /// Where the surface is as in the rest pose at the places that balls have left, all of them return, unless they would
+  /// leave again.
+  Status return_renewed() {
     std::vector<std::pair<std::size_t, TrackedBall>> returned;
     for (std::size_t i = 0; i < tracked_.size(); ++i) {
       if (is_renewed_[i] == 0 || !rest_[i].has_two_contacts()) continue;
       const double share = share_of_rest(surface_, rest_[i]);
-      if (!(share > 0)) return;
+      if (!(share > 0)) return {};
       TrackedBall now = rest_[i];
       now.ball.radius = 0;
       replace(now, drawn_to_rest(surface_, rest_[i], share, now));
-      if (!(now.ball.radius > 0) || !surface_.holds(now.ball)) return;
+      if (!(now.ball.radius > 0) || !surface_.holds(now.ball)) return {};
       returned.emplace_back(i, now);
     }
-    if (returned.empty()) return;
+    if (returned.empty()) return {};
+    copy_balls(present_);
+    for (const auto& [i, now] : returned) present_[i] = now.ball;
+    const Result<BallUnion> measured = measure_ball_union(present_, BallUnionOptions{options_.threads});
+    if (!measured) return measured.error();
+    if (uncovered_share(measured.value()) > kDrawn * options_.renewal_factor * rest_share_) return {};
     sides_.return_to_rest();
     for (const auto& [i, now] : returned) {
       tracked_[i] = now;
       is_renewed_[i] = 0;
       came_[i] = FollowOrigin::kReturned;
     }
+    return {};
   }
 
   void follow(TrackedBall& tracked) {
@@ -244,7 +257,6 @@ class Follower::Impl {
   }
 
   void draw_to_rest() {
-    if (options_.renewed > 0) return_renewed();
     std::ranges::copy(tracked_, before_.begin());
     for_each_ball([&](std::size_t i) {
       if (is_renewed_[i] != 0) return;

@@ -110,17 +110,18 @@ class Renewal {
     return places;
   }
 
-  /// Points of the surface, by their distance from the balls.
+  /// Points of the surface, by their distance from the balls; without any ball all are as far.
   std::vector<GapPlace> uncovered_points() const {
     std::vector<Ball> present;
     std::ranges::copy_if(balls_, std::back_inserter(present), [](const Ball& ball) { return ball.radius > 0; });
-    const NearestBallTree tree(present);
+    std::optional<NearestBallTree> tree;
+    if (!present.empty()) tree.emplace(present);
     const std::size_t triangles = surface_.triangles().size(), stride = triangles / kMostTriangles + 1;
     std::vector<GapPlace> places((triangles + stride - 1) / stride);
     parallel_for(places.size(), 64, threads_, [&](std::size_t i) {
       const auto triangle = static_cast<std::uint32_t>(i * stride);
       const Point at = surface_.at(middle_of(triangle));
-      places[i] = {at, tree.nearest(at).distance, triangle};
+      places[i] = {at, tree ? tree->nearest(at).distance : surface_.longest_side(), triangle};
     });
     sort_by_width(places);
     return places;
@@ -129,10 +130,8 @@ class Renewal {
   static SurfacePoint middle_of(std::uint32_t triangle) { return {triangle, 1.0 / 3, 1.0 / 3}; }
 
   void find_candidates() {
-    if (measured_.volume > 0) {
-      grow(pockets(), kAtVertices * most_);
-      grow(uncovered_points(), kAtSurface * most_);
-    }
+    grow(pockets(), kAtVertices * most_);
+    grow(uncovered_points(), kAtSurface * most_);
   }
 
   /// The greatest balls at the first `most` places that are not next to one of them.

@@ -120,6 +120,41 @@ TEST(CoverFollower, TightenedCoversAreSmallerAndFollowLaterFrames) {
   EXPECT_EQ(difference_of(follower.balls(), rest), 0);
 }
 
+TEST(CoverFollower, ATightenedFrameIsTheSameAsTheNextOne) {
+  const CoverExample example = covered_torus();
+  CoverFollower follower = example.follower(), loose = example.follower();
+  const CoverFrame bent = test::moved_vertices(example.rest(), test::Motion::kBend, 1);
+  ASSERT_TRUE(follower.update(bent).ok());
+  ASSERT_TRUE(follower.tighten().ok());
+  const double tight = follower.measure().value().ball_volume;
+  ASSERT_TRUE(follower.update(bent).ok());
+  // Centres are kept up to 1e-9 of a trace (docs/theory.md), times the distance from the patches.
+  EXPECT_NEAR(follower.measure().value().ball_volume, tight, 1e-6 * tight);
+  const CoverFrame next = test::moved_vertices(example.rest(), test::Motion::kBend, 0.9);
+  ASSERT_TRUE(follower.update(next).ok());
+  ASSERT_TRUE(loose.update(next).ok());
+  EXPECT_LT(follower.measure().value().ball_volume, loose.measure().value().ball_volume);
+}
+
+TEST(CoverFollower, TrianglesThatAreAPointAreDividedToo) {
+  const CoverExample example = covered_torus();
+  CoverFollower follower = example.follower();
+  CoverFrame frame = example.rest();
+  for (Point& p : frame) {
+    if (p[0] > 0.2) p = {0.016236256985133313, 0.1476560876222602, -0.10976116286324372};
+  }
+  ASSERT_TRUE(follower.update(frame).ok());
+  ASSERT_TRUE(follower.tighten().ok());
+  ASSERT_TRUE(follower.update(frame).ok());
+  const std::vector<Ball> before = balls_of(follower);
+  for (Point& p : frame) p[0] += 100;
+  ASSERT_TRUE(follower.update(frame).ok());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (!(before[i].radius > 0)) continue;
+    EXPECT_NEAR(follower.balls()[i].centre[0], before[i].centre[0] + 100, 1e-6) << i;
+  }
+}
+
 TEST(CoverFollower, ResultsDoNotDependOnThreads) {
   const CoverExample example = covered_torus();
   std::vector<std::vector<Ball>> results;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "unit/cover_following/cover_example.h"
@@ -45,6 +46,39 @@ TEST(Patches, FillEveryTriangle) {
       EXPECT_NEAR(areas[t], area, 1e-14);
     }
   }
+}
+
+/// Exactly: all numbers are multiples of 2^-10, and hulls run in one direction.
+bool holds(const Patches& patches, const Patch& patch, double v, double w) {
+  bool is_left = true, is_right = true;
+  for (std::uint32_t k = 0; k < patch.count; ++k) {
+    const Weights &a = patches.corners[patch.first + k], &b = patches.corners[patch.first + (k + 1) % patch.count];
+    const double side = (b[1] - a[1]) * (w - a[2]) - (b[2] - a[2]) * (v - a[1]);
+    is_left = is_left && side >= 0;
+    is_right = is_right && side <= 0;
+  }
+  return is_left || is_right;
+}
+
+TEST(Patches, LeaveOutNoPoint) {
+  const CoverExample example = covered_torus();
+  const auto view = example.mesh.view();
+  const Patches patches = divide_boundary(view.vertices, view.triangles, example.balls, 1);
+  std::vector<std::vector<const Patch*>> of_triangle(view.triangles.size());
+  for (const Patch& patch : patches.patches) of_triangle[patch.triangle].push_back(&patch);
+  constexpr int kSide = 64;
+  std::size_t divided = 0;
+  for (const auto& parts : of_triangle) {
+    divided += parts.size() > 1 ? 1 : 0;
+    for (int i = 0; i <= kSide; ++i) {
+      for (int j = 0; i + j <= kSide; ++j) {
+        const double v = static_cast<double>(i) / kSide, w = static_cast<double>(j) / kSide;
+        EXPECT_TRUE(
+            std::any_of(parts.begin(), parts.end(), [&](const Patch* part) { return holds(patches, *part, v, w); }));
+      }
+    }
+  }
+  EXPECT_GT(divided, 0u);
 }
 
 TEST(Patches, LieInTheirBallsWhereOneHoldsThem) {

@@ -215,6 +215,65 @@ TEST(Renewal, ALostBallGoesToAGapAndIsThenMeasuredByItsNewRadius) {
   EXPECT_EQ(follower.states()[1], FollowState::kShrunk);
 }
 
+/// Two tori apart, with many balls in the first one and few in the second, which grows.
+struct GrowingTorus {
+  GrowingTorus() : example(two_tori(), 160) {
+    std::size_t in_second = 0;
+    std::erase_if(example.balls, [&](const Ball& ball) { return ball.centre[0] > 2 && ++in_second > 6; });
+  }
+
+  static Mesh two_tori() {
+    Mesh both = test::make_turned_torus(24, 12);
+    test::append(both, test::moved(test::make_turned_torus(24, 12), {4, 0, 0}));
+    return both;
+  }
+
+  Frame grown(double factor) const {
+    Frame frame = example.rest();
+    for (Point& p : frame) {
+      if (p[0] > 2) p = {4 + factor * (p[0] - 4), factor * p[1], factor * p[2]};
+    }
+    return frame;
+  }
+
+  Example example;
+};
+
+// The first torus, which balls leave, is at rest all the time: they must not go back and forth.
+TEST(Renewal, BallsStayAwayWhileTheyAreNeededElsewhere) {
+  const GrowingTorus tori;
+  Follower follower = tori.example.follower(renewing(1.02, 3));
+  const std::vector<Ball> rest = copy_of(follower.balls());
+  std::size_t renewed = 0;
+  double before = 1;
+  for (int frame = 0; frame < 6; ++frame) {
+    ASSERT_TRUE(follower.update(tori.grown(1.5)).ok());
+    renewed += count_of(follower, FollowOrigin::kRenewed);
+    EXPECT_EQ(count_of(follower, FollowOrigin::kReturned), 0u) << frame;
+    const double uncovered = uncovered_share(follower);
+    EXPECT_LE(uncovered, before * (1 + 1e-9)) << frame;
+    before = uncovered;
+  }
+  EXPECT_GT(renewed, 3u);  // more than the budget of one frame
+  ASSERT_TRUE(follower.update(tori.example.rest()).ok());
+  EXPECT_GT(count_of(follower, FollowOrigin::kReturned), 3u);
+  EXPECT_LE(greatest_difference(follower.balls(), rest), 1e-7);
+}
+
+TEST(Renewal, WhereAllBallsAreLostOthersAreChosen) {
+  GrowingTorus tori;
+  std::erase_if(tori.example.balls, [](const Ball& ball) { return ball.centre[0] < 2; });
+  Follower follower = tori.example.follower(renewing(1, 2));
+  Frame frame = tori.example.rest();
+  for (Point& p : frame) {
+    if (p[0] > 2) p[2] = 0;
+  }
+  ASSERT_TRUE(follower.update(frame).ok());
+  EXPECT_GT(count_of(follower, FollowOrigin::kRenewed), 0u);
+  EXPECT_GT(follower.measure().value().ball_volume, 0);
+  expect_inside(follower, tori.example.mesh, frame, "the second torus is flat");
+}
+
 TEST(Renewal, WithoutAnyBallNothingIsChosen) {
   const IndexedMesh mesh = test::indexed(prepare_mesh(test::make_box({1, 1, 1})).value());
   const std::vector<Ball> balls = {{{0.5, 0.5, 0.5}, 0.4}};

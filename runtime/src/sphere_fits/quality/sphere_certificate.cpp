@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <new>
 #include <vector>
 
@@ -167,7 +168,9 @@ double vertex_error(const Envelope& envelope, const EnvelopeVertex& vertex) {
   const Point yz = cross(directions[1], directions[2]), zx = cross(directions[2], directions[0]),
               xy = cross(directions[0], directions[1]);
   const double determinant = std::fabs(dot(directions[0], yz));
-  const double inverse = std::sqrt(dot(yz, yz) + dot(zx, zx) + dot(xy, xy)) / std::max(determinant, 1e-300);
+  const double entries = std::sqrt(dot(yz, yz) + dot(zx, zx) + dot(xy, xy));
+  // Of parallel directions entries are 0, too.
+  const double inverse = determinant > 1e-300 ? entries / determinant : std::numeric_limits<double>::infinity();
   const double left = residual + 16 * kUnit * (radius + length(vertex.at));
   return std::min(2 * left * inverse, 4 * std::sqrt((left + 2 * envelope.tolerance()) * radius));
 }
