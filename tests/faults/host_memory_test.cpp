@@ -372,30 +372,5 @@ TEST_F(HostMemory, RunsOutWhereBallsAreChosenAnew) {
   EXPECT_GT(chosen, 0u);
 }
 
-// A frame writes to memory that create() has allocated.
-TEST(FramesOfBalls, AllocateNothing) {
-  const IndexedMesh mesh = indexed(prepare(make_torus(1.0, 0.4, 24, 12)));
-  std::vector<Ball> balls;
-  for (int i = 0; i < 20; ++i) balls.push_back({{std::cos(0.3 * i), std::sin(0.3 * i), 0}, 0.3});
-  for (const FollowRule rule : {FollowRule::kTangent, FollowRule::kPublished}) {
-    FollowerOptions options;
-    options.rule = rule;
-    options.threads = 1;
-    Follower follower = Follower::create(mesh, balls, options).value();
-    for (int frame = 0; frame < 10; ++frame) {
-      std::vector<Point> bent(mesh.view().vertices.begin(), mesh.view().vertices.end());
-      for (Point& p : bent) p[2] += 0.03 * frame * p[0] * p[0];
-      if (frame > 0) fail_new(1);
-      const Status status = in_runtime([&] { return follower.update(bent); });
-      const bool has_allocated = stop_failing_new();
-      EXPECT_FALSE(has_allocated && frame > 0) << "frame " << frame;
-      EXPECT_TRUE(status.ok()) << status.error().message;
-    }
-    fail_new(1);
-    EXPECT_TRUE(in_runtime([&] { return follower.reset(); }).ok());
-    EXPECT_FALSE(stop_failing_new());
-  }
-}
-
 }  // namespace
 }  // namespace medial_vk::test

@@ -1,6 +1,7 @@
 // Every call of Vulkan that can fail does so once, in the jobs that a host records.
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <optional>
 #include <set>
 #include <string>
@@ -10,6 +11,7 @@
 #include "fault_test.h"
 #include "lent_device.h"
 #include "medial_vk/extraction_job.h"
+#include "medial_vk/follower.h"
 #include "medial_vk/follower_job.h"
 #include "medial_vk/proximity_job.h"
 #include "support/indexed.h"
@@ -221,6 +223,31 @@ TEST_F(RecordedJobFaults, LaterSequencesOfBallsAllocateNothing) {
     EXPECT_EQ(vulkan().calls() > 0, is_first) << vulkan().calls();
   }
   EXPECT_NE(answers[6], answers[7]);
+}
+
+// The same on the host, where a frame writes to memory that create() has allocated.
+TEST(FramesOfBalls, AllocateNothing) {
+  const IndexedMesh mesh = indexed(prepare(make_torus(1.0, 0.4, 24, 12)));
+  std::vector<Ball> balls;
+  for (int i = 0; i < 20; ++i) balls.push_back({{std::cos(0.3 * i), std::sin(0.3 * i), 0}, 0.3});
+  for (const FollowRule rule : {FollowRule::kTangent, FollowRule::kPublished}) {
+    FollowerOptions options;
+    options.rule = rule;
+    options.threads = 1;
+    Follower follower = Follower::create(mesh, balls, options).value();
+    for (int frame = 0; frame < 10; ++frame) {
+      std::vector<Point> bent(mesh.view().vertices.begin(), mesh.view().vertices.end());
+      for (Point& p : bent) p[2] += 0.03 * frame * p[0] * p[0];
+      if (frame > 0) fail_new(1);
+      const Status status = in_runtime([&] { return follower.update(bent); });
+      const bool has_allocated = stop_failing_new();
+      EXPECT_FALSE(has_allocated && frame > 0) << "frame " << frame;
+      EXPECT_TRUE(status.ok()) << status.error().message;
+    }
+    fail_new(1);
+    EXPECT_TRUE(in_runtime([&] { return follower.reset(); }).ok());
+    EXPECT_FALSE(stop_failing_new());
+  }
 }
 
 }  // namespace
