@@ -8,13 +8,13 @@
 // The exit code is 1 if the validation layer, where installed, reports anything.
 #include <medial_vk/host_device.h>
 
-#include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstdio>
-#include <cstdlib>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include "balls_of_frames.h"
 #include "camera.h"
@@ -170,7 +170,7 @@ class Renderer {
     std::uint32_t part = 0;
     if (searched_) report("search", searched_->spheres(), searched_->times(), times_->mean(part++), frames);
     if (followed_) report("follow", followed_->count(), followed_->times(), times_->mean(part++), frames);
-    std::printf("draw: device %.1f\n", times_->mean(part));
+    std::printf("draw: device %s\n", in_words(times_->mean(part)).c_str());
     if (host_.validates()) {
       std::printf("%u validation messages\n", host_.validation_messages());
     } else {
@@ -178,9 +178,16 @@ class Renderer {
     }
   }
 
+  static std::string in_words(double device) {
+    if (device < 0) return "not measured";
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f", device);
+    return text;
+  }
+
   static void report(const char* way, std::uint32_t balls, const HostTimes& host, double device, int frames) {
-    std::printf("%s: %u balls, moving the mesh %.1f, recording %.1f, device %.1f\n", way, balls,
-                1e3 * host.moving.count() / frames, 1e3 * host.recording.count() / frames, device);
+    std::printf("%s: %u balls, moving the mesh %.1f, recording %.1f, device %s\n", way, balls,
+                1e3 * host.moving.count() / frames, 1e3 * host.recording.count() / frames, in_words(device).c_str());
   }
 
   std::string folder_;
@@ -204,16 +211,26 @@ std::optional<Ways> ways_of(std::string_view word) {
   return std::nullopt;
 }
 
+// At least two: the job of the search reports on a frame when the next but one is due.
+std::optional<int> frames_of(std::string_view word) {
+  int frames = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), frames);
+  if (error != std::errc() || end != word.data() + word.size() || frames < static_cast<int>(kFramesInFlight)) {
+    return std::nullopt;
+  }
+  return frames;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::optional<Ways> ways = ways_of(argc > 3 ? argv[3] : "follow");
-  if (argc < 2 || argc > 4 || !ways) {
-    std::fprintf(stderr, "usage: renderer FOLDER [FRAMES [follow|search|both]]\n");
+  const std::optional<int> frames = frames_of(argc > 2 ? argv[2] : "4");
+  if (argc < 2 || argc > 4 || !ways || !frames) {
+    std::fprintf(stderr, "usage: renderer FOLDER [FRAMES [follow|search|both]]; FRAMES is 2 or more\n");
     return 2;
   }
   Renderer renderer(argv[1], *ways);
-  // At least two: the job of the search reports on a frame when the next but one is due.
-  renderer.draw(argc > 2 ? std::max(static_cast<int>(kFramesInFlight), std::atoi(argv[2])) : 4);
+  renderer.draw(*frames);
   return renderer.validation_messages() == 0 ? 0 : 1;
 }

@@ -55,20 +55,15 @@ class ChosenInFrame {
   void add(std::uint32_t candidate) {
     const Ball& ball = frame_->balls[candidate];
     if (!(ball.radius > 0)) return;
-    const std::uint32_t slot = value_or_fault(union_.add(ball));
-    slots_[candidate] = slot;
-    if (owners_.size() <= slot) owners_.resize(slot + 1, kNoSlot);
-    owners_[slot] = candidate;
-    losses_[candidate].reset();
-    forget_changed();
+    slots_[candidate] = value_or_fault(union_.add(ball));
+    forget_losses_at(ball);
   }
 
   void remove(std::uint32_t candidate) {
     const std::uint32_t slot = std::exchange(slots_[candidate], kNoSlot);
     if (slot == kNoSlot) return;
     if (const Status status = union_.remove(slot); !status) throw ChoiceFault{status.error()};
-    owners_[slot] = kNoSlot;
-    forget_changed();
+    forget_losses_at(frame_->balls[candidate]);
   }
 
   /// Of a chosen candidate.
@@ -93,17 +88,17 @@ class ChosenInFrame {
     return largest;
   }
 
-  /// What a ball adds depends on the balls at its power cell.
-  void forget_changed() {
-    for (const std::uint32_t slot : union_.changed()) {
-      if (slot < owners_.size() && owners_[slot] != kNoSlot) losses_[owners_[slot]].reset();
+  /// What a ball adds depends on all balls that overlap it, also on hidden ones, which have an empty power cell:
+  /// DynamicUnion::changed() does not name the balls that hide one.
+  void forget_losses_at(const Ball& ball) {
+    for (std::size_t c = 0; c < losses_.size(); ++c) {
+      if (losses_[c] && overlap(frame_->balls[c], ball)) losses_[c].reset();
     }
   }
 
   const CandidateFrame* frame_;
   DynamicUnion union_;
   std::vector<std::uint32_t> slots_;           // by candidate
-  std::vector<std::uint32_t> owners_;          // by slot
   std::vector<std::optional<double>> losses_;  // by candidate, of those that are chosen
 };
 

@@ -96,7 +96,7 @@ TEST_F(MotionFitCommand, BeatsTheFitAtRestInAllFrames) {
 
 TEST_F(MotionFitCommand, FollowsAnAnimation) {
   test::write_file(path("bow.glb"), test::skinned_animation(0.3).glb());
-  const ToolResult result = fit({"bow.glb", "--count", "4", "--frames", "bow.glb", "--animation", "bow"});
+  const ToolResult result = fit({"bow.glb", "--count", "4", "--frames", "./bow.glb", "--animation", "bow"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.err, HasSubstr("31 frames"));
   EXPECT_THAT(result.err, HasSubstr("bow.spheres.csv"));
@@ -104,6 +104,41 @@ TEST_F(MotionFitCommand, FollowsAnAnimation) {
   const ToolResult none = fit({"bow.glb", "--count", "4", "--frames", "bow.glb", "--animation", "jump"});
   EXPECT_EQ(none.exit_code, 2);
   EXPECT_THAT(none.err, HasSubstr("bow"));
+}
+
+// The note is that of `medial-vk follow`.
+TEST_F(MotionFitCommand, FramesWithoutAVolumeAreCounted) {
+  Mesh flat = test::make_box({2, 1, 1});
+  for (Point& p : flat.vertices) p[2] = 0;
+  for (const char* name : {"flat_0.obj", "flat_1.obj"}) test::write_file(path(name), test::to_obj(flat));
+  const ToolResult one = fit({"box_0.obj", "--count", "4", "--frames", "box_1.obj", "flat_0.obj"});
+  ASSERT_EQ(one.exit_code, 0) << one.err;
+  EXPECT_THAT(one.err, HasSubstr("; 1 frame has no volume\n"));
+  const ToolResult two = fit({"box_0.obj", "--count", "4", "--frames", "flat_0.obj", "box_1.obj", "flat_1.obj"});
+  ASSERT_EQ(two.exit_code, 0) << two.err;
+  EXPECT_THAT(two.err, HasSubstr("; 2 frames have no volume\n"));
+  const ToolResult followed = run({"follow", "box_0.obj", "flat_0.obj", "--balls", "box_0.spheres.csv"});
+  ASSERT_EQ(followed.exit_code, 0) << followed.err;
+  EXPECT_THAT(followed.err, HasSubstr("; 1 frame has no volume\n"));
+}
+
+// The line with the mesh and the number of frames comes before the fit.
+TEST_F(MotionFitCommand, BrokenFramesAreFoundBeforeTheFit) {
+  Mesh broken = test::make_box({2, 1, 1});
+  broken.vertices.back()[1] = 1e19;
+  test::write_file(path("far.obj"), test::to_obj(broken));
+  const auto fails = [&](const std::string& mesh, const std::string& frame, const std::string& why) {
+    const ToolResult result = fit({mesh, "--count", "6", "--frames", "box_1.obj", frame});
+    EXPECT_EQ(result.exit_code, 3) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(why));
+    EXPECT_THAT(result.err, Not(HasSubstr("2 frames")));
+  };
+  fails("box_0.obj", "far.obj", "far.obj: a coordinate is beyond 1e+18");
+  fails("far.obj", "box_2.obj", "far.obj: a coordinate is beyond 1e+18");
+  std::string text = test::to_obj(test::make_box({2, 1, 1}));
+  text.replace(text.find("v ") + 2, 1, "nan");
+  test::write_file(path("nan.obj"), text);
+  fails("box_0.obj", "nan.obj", "nan.obj");
 }
 
 TEST_F(MotionFitCommand, ErrorsWriteNothing) {

@@ -68,6 +68,19 @@ Drawn draw(const std::string& way) {
   return drawn;
 }
 
+// Before any device is opened.
+TEST(Renderer, ANumberOfFramesThatIsNoneIsRefused) {
+  for (const char* number : {"abc", "1", "-3", "4x", "99999999999", "''"}) {
+    FILE* renderer = popen((std::string(MEDIAL_VK_RENDERER " /no/such/folder ") + number + " 2>&1").c_str(), "r");
+    ASSERT_NE(renderer, nullptr);
+    std::string output;
+    for (int c = fgetc(renderer); c != EOF; c = fgetc(renderer)) output += static_cast<char>(c);
+    const int status = pclose(renderer);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 2) << number << ": " << output;
+    EXPECT_EQ(output.rfind("usage: ", 0), 0u) << output;
+  }
+}
+
 TEST(Renderer, DrawsBallsOfAMeshThatDeformsSearchedAndFollowed) {
   const Drawn both = draw("both");
   if (both.output.find("no device that draws") != std::string::npos) GTEST_SKIP() << both.output;

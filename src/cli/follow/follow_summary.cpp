@@ -54,7 +54,8 @@ std::string uncovered_text(const MotionRecord& record) {
   const double rest = record.frames.front().uncovered_percent();
   if (std::isfinite(rest)) text = fmt::format("{:.2f} % at rest, {}", rest, text);
   const std::size_t without = record.frames.size() - count;
-  return without == 0 ? text : fmt::format("{}; {} frames have no volume", text, grouped(without));
+  if (without == 0) return text;
+  return fmt::format("{}; {}", text, counted(without, "frame has no volume", "frames have no volume"));
 }
 
 std::string states_text(const FollowedFrame& frame) {

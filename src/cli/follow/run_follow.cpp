@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <iterator>
 #include <memory>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "base/stopwatch.h"
@@ -46,18 +44,6 @@ bool is_chosen(std::size_t frame, std::size_t count, std::size_t most) {
   if (count <= most) return true;
   const auto place = [&](std::size_t i) { return i * (most - 1) / (count - 1); };
   return frame == 0 || frame + 1 == count || place(frame) != place(frame - 1);
-}
-
-/// Proofs and floats of files have room for coordinates up to here. Error: kInvalidMesh.
-Status check_size(std::span<const Point> vertices, const std::string& name) {
-  constexpr double kLargest = 1e18;
-  for (const Point& p : vertices) {
-    for (const double x : p) {
-      if (std::fabs(x) <= kLargest) continue;
-      return Error{ErrorCode::kInvalidMesh, fmt::format("{}: a coordinate is beyond {:g}", name, kLargest)};
-    }
-  }
-  return {};
 }
 
 /// The sequence of steps from a mesh and its frames to files, and their shared data.

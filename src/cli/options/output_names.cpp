@@ -11,13 +11,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+}  // namespace
+
 bool same_file(const std::string& a, const std::string& b) {
+  if (a == "-" || b == "-") return a == b;
   std::error_code error;
   if (fs::equivalent(a, b, error)) return true;
   return fs::weakly_canonical(fs::absolute(a, error), error) == fs::weakly_canonical(fs::absolute(b, error), error);
 }
-
-}  // namespace
 
 bool may_end_in(const std::string& path, const char* extension) {
   return path.empty() || path == "-" || file_extension(path) == extension;
@@ -27,14 +28,14 @@ Status check_outputs_differ(std::span<const NamedOutput> outputs, const std::str
   const auto usage_error = [](std::string message) { return Error{ErrorCode::kUsage, std::move(message)}; };
   for (const NamedOutput& output : outputs) {
     if (output.file->empty()) continue;
-    if (input != "-" && *output.file != "-" && same_file(*output.file, input)) {
+    if (*output.file != "-" && same_file(*output.file, input)) {
       return usage_error(fmt::format("{} would overwrite the input {}", output.option, input));
     }
     for (const NamedOutput& other : outputs) {
       if (output.file == other.file || other.file->empty()) continue;
-      const bool any_stream = *output.file == "-" || *other.file == "-";
-      const bool same = any_stream ? *output.file == *other.file : same_file(*output.file, *other.file);
-      if (same) return usage_error(fmt::format("{} and {} are the same file", output.option, other.option));
+      if (same_file(*output.file, *other.file)) {
+        return usage_error(fmt::format("{} and {} are the same file", output.option, other.option));
+      }
     }
   }
   return {};

@@ -11,6 +11,9 @@ namespace medial_vk::cli {
 /// True if `path` is empty or standard output, or ends in `extension`, in upper or lower case.
 bool may_end_in(const std::string& path, const char* extension);
 
+/// Whether two paths lead to the same file, which need not exist. "-" is the same as "-" only.
+bool same_file(const std::string& a, const std::string& b);
+
 /// An option that names a file to write; empty: not given; "-": standard output.
 struct NamedOutput {
   const char* option;

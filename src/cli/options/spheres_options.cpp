@@ -77,8 +77,15 @@ void declare(CLI::App& app, SpheresOptions& options, Given& given) {
   add.flag("-h,--help", options.help);
 }
 
+Status check_there_is_input(const SpheresOptions& options) {
+  if (!options.input.empty()) return {};
+  return usage_error(options.frames.empty() ? "no MESH or ROBOT.urdf given"
+                                            : "no MESH or ROBOT.urdf given (--frames takes all files that follow it: "
+                                              "give MESH first)");
+}
+
 Status check_input(SpheresOptions& options, const Given& given) {
-  if (options.input.empty()) return usage_error("no MESH or ROBOT.urdf given");
+  if (Status status = check_there_is_input(options); !status) return status;
   const std::string extension = file_extension(options.input);
   if (extension == ".xacro") {
     return usage_error(
@@ -205,12 +212,29 @@ Status check_both(const SpheresOptions& options, const Given& given) {
   return usage_error("--method source: with --contract both only --method best is supported");
 }
 
+/// Frames are files, which are read several times; or MESH alone, which stands for its animation.
+Status check_files_of_frames(const SpheresOptions& options) {
+  if (frames_are_animation(options)) return {};
+  for (const std::string& frame : options.frames) {
+    if (frame == "-") {
+      return usage_error("--frames: frames are read several times, so none can be standard input (-)");
+    }
+    if (same_file(frame, options.input)) {
+      return usage_error(
+          fmt::format("--frames: {} is MESH itself, which is the rest pose; alone it stands for its animation", frame));
+    }
+  }
+  if (options.animation.empty()) return {};
+  return usage_error(fmt::format("--animation is about a scene: use --frames {}, too", options.input));
+}
+
 /// Spheres that follow a motion are one set inside one mesh, by number.
 Status check_frames(const SpheresOptions& options) {
   if (options.frames.empty()) {
     if (options.animation.empty()) return {};
     return usage_error("--animation is about a motion: use it with --frames");
   }
+  if (Status status = check_there_is_input(options); !status) return status;
   if (file_extension(options.input) == ".urdf") {
     return usage_error("--frames are those of one mesh; the links of a robot do not deform");
   }
@@ -231,9 +255,7 @@ Status check_frames(const SpheresOptions& options) {
     if (is_given) return usage_error(fmt::format("{} is about a mesh that does not move: leave out --frames", name));
   }
   if (fit.count == 0) return usage_error("--frames: give the number of spheres with --count N");
-  const bool is_animation = options.frames == std::vector<std::string>{options.input};
-  if (is_animation || options.animation.empty()) return {};
-  return usage_error(fmt::format("--animation is about a scene: use --frames {}, too", options.input));
+  return check_files_of_frames(options);
 }
 
 Status check_combinations(const SpheresOptions& options, const Given& given) {
@@ -254,6 +276,10 @@ Status check_combinations(const SpheresOptions& options, const Given& given) {
 }
 
 }  // namespace
+
+bool frames_are_animation(const SpheresOptions& options) {
+  return options.frames.size() == 1 && same_file(options.frames.front(), options.input);
+}
 
 std::vector<NamedOutput> outputs_of(const SpheresOptions& options) {
   return {{"--output", &options.output},

@@ -27,7 +27,8 @@ struct SpheresOptions {
   /// A body file: balls inside and a cover, of `spheres.count` each. `format` and `spheres.contract` are not read.
   bool both = false;
 
-  /// Meshes of a motion, or patterns, or `input` itself: its animation. Empty: the solid does not move.
+  /// Meshes of a motion, or patterns, none of them `input` or standard input; or `input` alone, by any path: its
+  /// animation. Empty: the solid does not move.
   std::vector<std::string> frames;
   std::string animation;  ///< Its name, or its number from 1; empty: the only one.
 
@@ -70,6 +71,9 @@ class SpheresOptionParser {
   struct Declared;  // keeps CLI11 out of this header
   std::unique_ptr<Declared> declared_;
 };
+
+/// Whether the frames are those of the animation of the input.
+bool frames_are_animation(const SpheresOptions& options);
 
 /// Every file to be written, with its option.
 std::vector<NamedOutput> outputs_of(const SpheresOptions& options);

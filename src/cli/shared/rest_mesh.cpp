@@ -1,5 +1,7 @@
 #include "cli/shared/rest_mesh.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -63,6 +65,17 @@ Result<std::vector<std::string>> files_of_frames(std::span<const std::string> fr
     files.insert(files.end(), found.value().begin(), found.value().end());
   }
   return files;
+}
+
+Status check_size(std::span<const Point> vertices, const std::string& name) {
+  constexpr double kLargest = 1e18;
+  for (const Point& p : vertices) {
+    for (const double x : p) {
+      if (std::fabs(x) <= kLargest) continue;
+      return Error{ErrorCode::kInvalidMesh, fmt::format("{}: a coordinate is beyond {:g}", name, kLargest)};
+    }
+  }
+  return {};
 }
 
 bool encloses_volume(const MeshReport& report) {

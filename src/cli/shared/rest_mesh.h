@@ -38,6 +38,9 @@ class VertexMap {
 /// files_of_pattern().
 Result<std::vector<std::string>> files_of_frames(std::span<const std::string> frames);
 
+/// Proofs and floats of files have room for coordinates up to 1e18. Error: kInvalidMesh, with the name of the mesh.
+Status check_size(std::span<const Point> vertices, const std::string& name);
+
 /// Whether the signed volume of a mesh is the volume of its solid: it is closed, and no faces cross or lie inside.
 bool encloses_volume(const MeshReport& report);
 

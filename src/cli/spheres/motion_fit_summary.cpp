@@ -9,14 +9,22 @@
 namespace medial_vk::cli {
 namespace {
 
+/// At rest, on average and at most; frames without a volume are left out, and counted.
 std::string shares_text(std::span<const MeasuredFrame> frames) {
   const MeasuredFrame* worst = &frames.front();
+  std::uint64_t without = 0;
   for (const MeasuredFrame& frame : frames) {
-    if (frame.measures.solid_volume > 0 && frame.uncovered_share() > worst->uncovered_share()) worst = &frame;
+    if (!(frame.measures.solid_volume > 0)) {
+      ++without;
+    } else if (frame.uncovered_share() > worst->uncovered_share()) {
+      worst = &frame;
+    }
   }
-  return fmt::format("{:.2f} % of the solid on average, {:.2f} % at most ({}), {:.2f} % at rest",
-                     100 * mean_uncovered(frames), 100 * worst->uncovered_share(), medial_vk::quoted(worst->name),
-                     100 * frames.front().uncovered_share());
+  std::string text = fmt::format("{:.2f} % of the solid on average, {:.2f} % at most ({}), {:.2f} % at rest",
+                                 100 * mean_uncovered(frames), 100 * worst->uncovered_share(),
+                                 medial_vk::quoted(worst->name), 100 * frames.front().uncovered_share());
+  if (without > 0) text += "; " + counted(without, "frame has no volume", "frames have no volume");
+  return text;
 }
 
 }  // namespace

@@ -82,12 +82,15 @@ class MotionFitRun {
     shared_.progress.clear();
     if (!motion) return motion.error();
     motion_ = std::move(motion).value();
+    const Status status = read_frames();
+    shared_.progress.clear();
+    if (!status) return status;
     shared_.times.push_back({"read", stopwatch.lap()});
     return {};
   }
 
   Result<std::unique_ptr<MeshMotion>> open_motion() const {
-    if (options_.frames == std::vector<std::string>{options_.input}) {
+    if (frames_are_animation(options_)) {
       AnimationOptions animation;
       animation.animation = options_.animation;
       return open_animation(options_.input, animation);
@@ -100,12 +103,25 @@ class MotionFitRun {
     return open_mesh_files(options_.input, std::move(files).value());
   }
 
+  /// They are read again while balls follow; but an error in one of them is better known before the long fit.
+  Status read_frames() {
+    const std::uint64_t count = motion_->frame_count();
+    MotionFrame frame;
+    for (std::uint64_t i = 0; i < count; ++i) {
+      shared_.progress.update("read", static_cast<double>(i) / static_cast<double>(count));
+      if (Status status = motion_->read_frame(i, frame); !status) return status;
+      if (Status status = check_size(frame.positions, frame.name); !status) return status;
+    }
+    return {};
+  }
+
   /// As for `medial-vk follow`: without new vertices.
   Status prepare() {
     const PrepareOptions prepare = {.keep_inner_faces = true, .threads = threads(), .keep_outer_faces = true};
     Result<PreparedMesh> prepared =
         prepare_loaded(motion_->rest(), options_.input, shared_.opening, prepare, shared_.times);
     if (!prepared) return prepared.error();
+    if (Status status = check_size(prepared.value().mesh.vertices, options_.input); !status) return status;
     if (!encloses_volume(prepared.value().report)) {
       return Error{ErrorCode::kInvalidMesh,
                    fmt::format("{}: it is not closed, or faces cross or lie inside: without a volume at rest no balls "

@@ -142,6 +142,25 @@ TEST(SpheresOptions, FramesAreOfOneSetInsideAMesh) {
   EXPECT_THAT(spheres_message({"a.urdf", "--total", "9", "--frames", "b.obj"}), HasSubstr("do not deform"));
 }
 
+TEST(SpheresOptions, FramesAreFilesOrMeshAlone) {
+  const auto parse = [](const std::string& mesh, std::vector<std::string> frames) {
+    frames.insert(frames.begin(), {mesh, "--count", "9", "--frames"});
+    return frames;
+  };
+  EXPECT_TRUE(frames_are_animation(parsed_spheres(parse("a.glb", {"a.glb"}))));
+  EXPECT_TRUE(frames_are_animation(parsed_spheres(parse("a.glb", {"./a.glb"})))) << "by any path";
+  EXPECT_TRUE(frames_are_animation(parsed_spheres(parse("b/../a.glb", {"./a.glb", "--animation", "w"}))));
+  EXPECT_TRUE(frames_are_animation(parsed_spheres(parse("-", {"-"}))));
+  EXPECT_FALSE(frames_are_animation(parsed_spheres(parse("a.glb", {"b/a.glb"}))));
+  EXPECT_FALSE(frames_are_animation(parsed_spheres(parse("-", {"a.obj"}))));
+  EXPECT_THAT(spheres_message(parse("a.glb", {"b.glb", "./a.glb"})), HasSubstr("./a.glb is MESH itself"));
+  EXPECT_THAT(spheres_message(parse("a.obj", {"-"})), HasSubstr("standard input"));
+  EXPECT_THAT(spheres_message(parse("a.obj", {"b.obj", "-"})), HasSubstr("standard input"));
+  EXPECT_THAT(spheres_message(parse("-", {"-", "-"})), HasSubstr("standard input"));
+  EXPECT_EQ(spheres_message({"--frames", "a.obj", "b.obj", "part.obj", "--count", "5"}),
+            "no MESH or ROBOT.urdf given (--frames takes all files that follow it: give MESH first)");
+}
+
 TEST(SpheresOptions, PackagesAddUp) {
   const SpheresOptions options = parsed_spheres({"a.urdf", "--total", "9", "--package", "a=b", "--package", "c=d"});
   EXPECT_EQ(options.packages, (std::vector<std::string>{"a=b", "c=d"}));

@@ -117,6 +117,47 @@ TEST(ChooseBalls, IsNeverWorseThanWhatItIsGiven) {
   }
 }
 
+/// Large balls, and small ones that are inside them in some frames: their power cells are empty there.
+std::vector<CandidateFrame> nested(std::size_t large, std::size_t small, std::size_t frames, unsigned seed) {
+  std::vector<CandidateFrame> made = wandering(large, frames, seed);
+  std::mt19937 random(seed + 1000);
+  for (std::size_t f = 0; f < frames; ++f) {
+    const std::vector<Ball> outer = made[f].balls;
+    for (std::size_t i = 0; i < small; ++i) {
+      // In half of the frames it is 0.3 of the radius from the centre, and reaches out of the ball in the others.
+      const Ball& home = outer[i % large];
+      Ball ball = {home.centre, 0.6 * home.radius};
+      ball.centre[random() % 3] += (random() % 2 == 0 ? 0.3 : 1.1) * home.radius;
+      made[f].balls.push_back(ball);
+    }
+  }
+  return made;
+}
+
+// A hidden ball alters no power cell but its own, as it comes and as it goes; what the balls around it add depends on
+// it nevertheless. Here the first exchange removes the hidden one. Before, the outer one adds an eighth of its volume,
+// and afterwards all of it: it must not be exchanged for the last candidate, which has little more than an eighth.
+TEST(ChooseBalls, WhatABallAddsGrowsWhenOneInsideItGoes) {
+  const Ball outer = {{0, 0, 0}, 1}, hidden = {{0, 0, 0}, std::cbrt(0.875)};
+  const Ball better = {{5, 0, 0}, 0.7}, eighth = {{9, 0, 0}, 0.5 * (1 + 1e-7)};
+  const std::vector<CandidateFrame> frames = {{{outer, hidden, better, eighth}, 1}};
+  const MotionChoice choice = choose(frames, 2, {0, 1});
+  EXPECT_EQ(choice.chosen, (std::vector<std::uint32_t>{0, 2}));
+  EXPECT_GE(choice.value, value_of(frames, {0, 1}));
+}
+
+// The values are measured anew.
+TEST(ChooseBalls, HiddenBallsCount) {
+  for (unsigned seed = 1; seed <= 30; ++seed) {
+    const std::vector<CandidateFrame> frames = nested(6, 18, 3, seed);
+    std::vector<std::uint32_t> start;
+    for (std::uint32_t c = 0; c < 24; c += 3) start.push_back(c);
+    const MotionChoice choice = choose(frames, start.size(), start);
+    EXPECT_NEAR(choice.value, value_of(frames, choice.chosen), 1e-9 * choice.value) << seed;
+    EXPECT_GE(choice.value, value_of(frames, start) * (1 - 1e-12)) << seed;
+  }
+}
+
 // The first is the best one at rest, but nearly vanishes in the other frames.
 TEST(ChooseBalls, AllFramesCount) {
   const Ball large = {{0, 0, 0}, 1}, small = {{0, 0, 0}, 0.1}, other = {{5, 0, 0}, 0.9};
