@@ -72,8 +72,9 @@ std::vector<Cavity> cavities_of(const MovingSurface& surface, const Envelope& en
   }
   std::vector<Cavity> cavities;
   for (const std::vector<std::size_t>& group : groups_of(inside, joined)) {
-    Cavity& cavity = cavities.emplace_back();
+    Cavity cavity;
     for (const std::size_t i : group) cavity.push_back(points[i]);
+    cavities.push_back(std::move(cavity));
   }
   return cavities;
 }
