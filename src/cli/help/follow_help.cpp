@@ -52,8 +52,8 @@ How they follow:
       --renew-factor F  to more than F times that at rest (default 1.5)
       --protrusion XI   for published: how far balls may reach out, as a share
                         of the longest side (default 0.0025)
-      --shrunk S        a ball below S of its radius at rest counts as shrunk
-                        (default 0.5)
+      --shrunk S        a ball below S of its radius at rest, or of that with
+                        which it was chosen anew, counts as shrunk (default 0.5)
       --object-angle A  a ball whose contacts are nearer to each other, in
                         radians, counts as flat: no longer medial (default 0.5)
 
