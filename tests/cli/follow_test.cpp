@@ -216,6 +216,13 @@ TEST_F(FollowCommand, NamesMayHoldAnyBytes) {
   test::write_file(path(name), test::to_obj(test::make_box({2, 1, 1})));
   const ToolResult result = follow({name, "box_1.obj", "--balls", "balls.csv", "-o", "n.glb", "-q"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
+  const std::string scene = "n\xff.glb";
+  test::write_file(path(scene), test::skinned_animation().glb());
+  test::write_file(path("ball.csv"), "x,y,z,radius\n5.25,0.25,0.25,0.125\n");
+  for (const char* const rig : {"rig.glb", "rig.gltf", "rig.json"}) {
+    const ToolResult rigged = follow({scene, "--balls", "ball.csv", "--fps", "4", "--rig", rig, "-o", "n.npz", "-q"});
+    EXPECT_EQ(rigged.exit_code, 0) << rigged.err;
+  }
 }
 
 TEST_F(FollowCommand, VerticesThatPartMoveAsTheFirst) {

@@ -126,9 +126,11 @@ Result<std::string> encode_rig_gltf(const RigFile& file, const GltfSource& sourc
     ++written;
   }
   add_remarks(file, written, greatest_reach_out, scene);
-  if (is_glb) return glb_of(scene.dump(), source.binary);
+  // The name of the mesh, that of a file, may hold any bytes.
+  constexpr auto kReplace = SceneJson::error_handler_t::replace;
+  if (is_glb) return glb_of(scene.dump(-1, ' ', false, kReplace), source.binary);
   embed_binary(source.binary, scene);
-  return scene.dump(1) + "\n";
+  return scene.dump(1, ' ', false, kReplace) + "\n";
 }
 
 }  // namespace medial_vk

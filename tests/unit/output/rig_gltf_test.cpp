@@ -124,6 +124,18 @@ TEST(RigGltf, RemarksOfTheSceneStay) {
   EXPECT_EQ(one["extras"], "no object");
 }
 
+TEST(RigGltf, NamesOfFilesMayHoldAnyBytes) {
+  const BoundBalls bound;
+  const GltfSource source = source_of(skinned_animation().glb());
+  const RigFile file = {"1.2", "bow\xff.glb", bound.rig, bound.balls};
+  for (const bool is_glb : {false, true}) {
+    const Result<std::string> copy = encode_rig_gltf(file, source, is_glb);
+    ASSERT_TRUE(copy.ok());
+    const std::string json = is_glb ? source_of(copy.value()).json : copy.value();
+    EXPECT_EQ(nlohmann::json::parse(json)["extras"]["medial_vk"]["mesh"], "bow\xef\xbf\xbd.glb");
+  }
+}
+
 TEST(RigGltf, OtherFilesAreSeen) {
   GltfSource source = {R"({"buffers":[{"byteLength":4}],"images":[{"bufferView":0},{"uri":"data:image/png;base64,"}]})",
                        ""};
