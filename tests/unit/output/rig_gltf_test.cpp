@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
 #include "motion_files/mesh_motion.h"
 #include "unit/motion_files/animations.h"
@@ -133,6 +134,21 @@ TEST(RigGltf, NamesOfFilesMayHoldAnyBytes) {
     ASSERT_TRUE(copy.ok());
     const std::string json = is_glb ? source_of(copy.value()).json : copy.value();
     EXPECT_EQ(nlohmann::json::parse(json)["extras"]["medial_vk"]["mesh"], "bow\xef\xbf\xbd.glb");
+  }
+}
+
+TEST(RigGltf, TheDeepestSourceIsCopied) {
+  const BoundBalls bound;
+  test::AnimationWriter writer = skinned_animation();
+  nlohmann::json deep = nlohmann::json::array();
+  for (std::uint64_t level = 3; level < kMostSourceLevels; ++level) deep = nlohmann::json::array({std::move(deep)});
+  writer.document["asset"]["extras"] = std::move(deep);
+  for (const bool is_glb : {false, true}) {
+    const GltfSource source = source_of(writer.glb());
+    const Result<std::string> copy = encode_rig_gltf(bound.file(), source, is_glb);
+    ASSERT_TRUE(copy.ok());
+    const auto again = parse_animation(copy.value(), "copy", "", {.keep_source = true});
+    ASSERT_TRUE(again.ok()) << again.error().message;
   }
 }
 
