@@ -138,8 +138,8 @@ std::uint64_t levels_of_json(std::string_view text) {
 /// For a copy, which is written by recursion.
 GltfSource source_to_copy(const GltfDocument& document) {
   if (const std::uint64_t levels = levels_of_json(document.text()); levels > kMostSourceLevels) {
-    throw GltfFault{fmt::format("its JSON is nested {} levels deep; scenes are copied up to {}", levels,
-                                kMostSourceLevels)};
+    throw GltfFault{
+        fmt::format("its JSON is nested {} levels deep; scenes are copied up to {}", levels, kMostSourceLevels)};
   }
   return {std::string(document.text()), std::string(document.binary())};
 }

@@ -68,7 +68,9 @@ Output:
       --html FILE       a page that plays the motion
       --rig FILE        the balls bound to the joints of the animation
                         .glb, .gltf: a copy of the scene with each ball as a
-                        node below one joint, which any engine moves
+                        node below one joint, which any engine moves; in each
+                        frame the node lies within the proved ball, and is that
+                        ball where the joint does not scale
                         .json: each below up to four joints, with weights, for
                         engines that move vertices so
       --view FROM       of the picture: front, back, left, right, top, bottom,

@@ -27,6 +27,7 @@ struct BoundBalls {
     rig.joints[1].parent = 0;
     rig.joints[1].rest = AffineMap(AffineMap::Rows{{{0, -4, 0, 5}, {4, 0, 0, 0}, {0, 0, 4, 1}}});
     balls.frames = 3;
+    balls.joint_stretches = {1, 4};
     balls.balls.resize(3);
     for (RigBall& ball : balls.balls) {
       ball.joints = {{1, 1, {0.1, 0.2, 1.0 / 3}}};
