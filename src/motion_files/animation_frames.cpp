@@ -120,6 +120,30 @@ Error no_animation(const GltfDocument& document, const std::string& name, const 
           fmt::format("{}: it has no animation {}; it has {}", name, medial_vk::quoted(choice), list)};
 }
 
+/// How many arrays and objects of a valid JSON text contain each other at most.
+std::uint64_t levels_of_json(std::string_view text) {
+  std::uint64_t level = 0, deepest = 0;
+  bool is_quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"') is_quoted = !is_quoted;
+    if (is_quoted && c == '\\') ++i;  // the next character is no end of the string
+    if (is_quoted) continue;
+    if (c == '[' || c == '{') deepest = std::max(deepest, ++level);
+    if (c == ']' || c == '}') --level;
+  }
+  return deepest;
+}
+
+/// For a copy, which is written by recursion.
+GltfSource source_to_copy(const GltfDocument& document) {
+  if (const std::uint64_t levels = levels_of_json(document.text()); levels > kMostSourceLevels) {
+    throw GltfFault{
+        fmt::format("its JSON is nested {} levels deep; scenes are copied up to {}", levels, kMostSourceLevels)};
+  }
+  return {std::string(document.text()), std::string(document.binary())};
+}
+
 Result<std::unique_ptr<MeshMotion>> read_animation(std::string bytes, const std::string& name, const std::string& path,
                                                    const AnimationOptions& options) {
   GltfDocument document(std::move(bytes), path);
@@ -132,7 +156,7 @@ Result<std::unique_ptr<MeshMotion>> read_animation(std::string bytes, const std:
   const Result<FrameTimes> times = frame_times(options, animation.start, animation.end);
   if (!times) return Error{times.error().code, fmt::format("{}: {}", name, times.error().message)};
   std::optional<GltfSource> source;
-  if (options.keep_source) source = {std::string(document.text()), std::string(document.binary())};
+  if (options.keep_source) source = source_to_copy(document);
   return std::unique_ptr<MeshMotion>(std::make_unique<AnimationMotion>(
       name, std::move(nodes), std::move(mesh), std::move(animation), times.value(), std::move(source)));
 }

@@ -21,6 +21,10 @@ namespace medial_vk {
 /// A motion has no more frames.
 inline constexpr std::uint64_t kMostFrames = 1'000'000;
 
+/// How deep the JSON of a glTF may be nested that is kept to be copied: many times what glTF itself needs, and
+/// little for the stack of what writes it by recursion.
+inline constexpr std::uint64_t kMostSourceLevels = 512;
+
 /// What moves vertices of an animation: a node of the file, as the joint of a skin or as the node that shows a mesh.
 struct RigJoint {
   static constexpr std::uint32_t kNone = 0xffffffffu;
@@ -102,7 +106,7 @@ struct AnimationOptions {
   std::optional<double> end = {};    ///< Without it: the time of the last key.
   /// The most corners and vertices, and weights of joints, that all instances of all meshes have together.
   std::uint64_t most_values = 2 * kMostSceneCorners;
-  bool keep_source = false;  ///< For MeshMotion::source().
+  bool keep_source = false;  ///< For MeshMotion::source(). Its JSON must not be deeper than kMostSourceLevels.
 };
 
 /// The frames of an animation in a glTF or GLB file; "-" is standard input. At rest the mesh is that of

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "rigs/blend_weights.h"
+#include "rigs/joint_stretch.h"
 
 namespace medial_vk {
 namespace {
@@ -136,6 +137,7 @@ BallRig bind_balls(const MotionRig& rig, std::span<const Point> vertices, std::s
     if (!goes_on(static_cast<double>(i) / static_cast<double>(count))) break;
     bound.balls.push_back(bind_ball(rig, vertices, frames, binding, i));
   }
+  bound.joint_stretches = greatest_stretches(frames);
   return bound;
 }
 

@@ -41,6 +41,8 @@ struct RigBall {
 struct BallRig {
   std::vector<RigBall> balls;
   std::uint64_t frames = 0;  ///< For which the radii are proved: the rest pose and those of the motion.
+  /// By joint: the greatest factor by which it lengthens a vector of its frame, in any of these frames.
+  std::vector<double> joint_stretches;
 
   double greatest_reach_out() const;
 };

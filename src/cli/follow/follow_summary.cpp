@@ -78,16 +78,17 @@ std::string outside_text(const MotionRecord& record) {
   return fmt::format("at most {:.2f} % of the solid, in any frame", 100 * worst);
 }
 
-/// How many balls joints alone keep inside, and what they would miss with their radii at rest.
+/// How many balls joints alone keep inside, and how far all of them would reach out with their radii at rest: those
+/// that no file shows as nodes, too.
 std::string rig_text(const BallRig& rig) {
   const auto inside = std::ranges::count_if(rig.balls, [](const RigBall& ball) { return ball.radius > 0; });
   double share = 0;
   for (const RigBall& ball : rig.balls) share += ball.rest_radius > 0 ? ball.radius / ball.rest_radius : 0;
   return fmt::format(
-      "{} of {} balls inside in every frame, with {:.0f} % of their radii on average; with all of it they "
-      "reach out by {:.3g} at most",
+      "{} of {} balls inside in every frame, with {:.0f} % of their radii on average; with their radii at rest "
+      "all {} would reach out by {:.3g} at most",
       grouped(inside), grouped(rig.balls.size()), 100 * share / static_cast<double>(rig.balls.size()),
-      rig.greatest_reach_out());
+      grouped(rig.balls.size()), rig.greatest_reach_out());
 }
 
 }  // namespace

@@ -52,8 +52,8 @@ How they follow:
       --renew-factor F  to more than F times that at rest (default 1.5)
       --protrusion XI   for published: how far balls may reach out, as a share
                         of the longest side (default 0.0025)
-      --shrunk S        a ball below S of its radius at rest counts as shrunk
-                        (default 0.5)
+      --shrunk S        a ball below S of its radius at rest, or of that with
+                        which it was chosen anew, counts as shrunk (default 0.5)
       --object-angle A  a ball whose contacts are nearer to each other, in
                         radians, counts as flat: no longer medial (default 0.5)
 
@@ -68,7 +68,9 @@ Output:
       --html FILE       a page that plays the motion
       --rig FILE        the balls bound to the joints of the animation
                         .glb, .gltf: a copy of the scene with each ball as a
-                        node below one joint, which any engine moves
+                        node below one joint, which any engine moves; in each
+                        frame the node lies within the proved ball, and is that
+                        ball where the joint does not scale
                         .json: each below up to four joints, with weights, for
                         engines that move vertices so
       --view FROM       of the picture: front, back, left, right, top, bottom,

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
@@ -20,13 +19,12 @@ using SceneJson = nlohmann::ordered_json;
 constexpr int kNodeFormat = 1;
 constexpr const char* kOurKey = "medial_vk";
 
-/// By how much the joint at rest scales lengths; where it scales them differently, so that volumes are kept.
-double scale_at_rest(const RigJoint& joint) { return std::cbrt(std::fabs(joint.rest.determinant())); }
-
-/// The ball in the frame of its joint: centre and radius of the unit ball there.
-SceneJson node_of(const RigBall& ball, std::size_t number, const RigJoint& joint) {
+/// The unit ball of the node in the frame of its joint: the centre, and a scale. In the scene it is an ellipsoid around
+/// the centre of the ball, whose longest semi-axis is the scale times the stretch of the joint in that frame; `stretch`
+/// is the greatest of all frames, so that the ellipsoid lies within the ball in each of them.
+SceneJson node_of(const RigBall& ball, std::size_t number, const RigJoint& joint, double stretch) {
   const BallJoint& bound = ball.joints.front();
-  const double scale = ball.radius / scale_at_rest(joint);
+  const double scale = ball.radius / stretch;
   const SceneJson ours = {{"ball", number},
                           {"radius", ball.radius},
                           {"rest_radius", ball.rest_radius},
@@ -119,16 +117,19 @@ Result<std::string> encode_rig_gltf(const RigFile& file, const GltfSource& sourc
   for (std::size_t i = 0; i < file.balls.balls.size(); ++i) {
     const RigBall& ball = file.balls.balls[i];
     if (!(ball.radius > 0)) continue;
-    const RigJoint& joint = file.rig.joints[ball.joints.front().joint];
+    const std::uint32_t number = ball.joints.front().joint;
+    const RigJoint& joint = file.rig.joints[number];
     add_child(nodes[joint.node], nodes.size());
-    nodes.push_back(node_of(ball, i, joint));
+    nodes.push_back(node_of(ball, i, joint, file.balls.joint_stretches[number]));
     greatest_reach_out = std::max(greatest_reach_out, ball.reach_out);
     ++written;
   }
   add_remarks(file, written, greatest_reach_out, scene);
-  if (is_glb) return glb_of(scene.dump(), source.binary);
+  // The name of the mesh, that of a file, may hold any bytes.
+  constexpr auto kReplace = SceneJson::error_handler_t::replace;
+  if (is_glb) return glb_of(scene.dump(-1, ' ', false, kReplace), source.binary);
   embed_binary(source.binary, scene);
-  return scene.dump(1) + "\n";
+  return scene.dump(1, ' ', false, kReplace) + "\n";
 }
 
 }  // namespace medial_vk

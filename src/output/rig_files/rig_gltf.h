@@ -12,8 +12,8 @@ namespace medial_vk {
 bool names_other_files(const GltfSource& source);
 
 /// A copy of `source`, of which `file` has the rig, as glTF or as GLB. Every ball with a radius is bound to one joint,
-/// and is a node below it: the unit ball of its frame, scaled. Error kCannotWrite: the file would exceed the size limit
-/// of GLB.
+/// and is a node below it, whose unit ball lies within the ball in every frame, and is that ball where the joint does
+/// not scale. Error kCannotWrite: the file would exceed the size limit of GLB.
 Result<std::string> encode_rig_gltf(const RigFile& file, const GltfSource& source, bool is_glb);
 
 }  // namespace medial_vk

@@ -230,6 +230,23 @@ TEST(AnimationErrors, DeepJsonIsReadWithoutRecursion) {
   EXPECT_THAT(error_of(closed).message, HasSubstr("it has no animation"));
 }
 
+TEST(AnimationErrors, DeepJsonIsNotKeptForACopy) {
+  // The brackets of a string do not count, nor does a quotation mark within it end it.
+  const auto file_of = [](std::size_t levels) {
+    const std::string extras = std::string(levels, '[') + R"("\"[[{\\")" + std::string(levels, ']');
+    std::string text = skinned_animation().gltf();
+    return text.insert(1, "\"extras\":" + extras + ",");
+  };
+  const AnimationOptions kept = {.keep_source = true};
+  const std::size_t most = kMostSourceLevels - 1;  // within the object of the document
+  EXPECT_TRUE(parse_animation(file_of(most), "a.gltf", "", kept).ok());
+  const Error error = error_of(file_of(most + 1), kept);
+  EXPECT_EQ(error.code, ErrorCode::kInvalidMesh);
+  EXPECT_EQ(error.message, "a.gltf: its JSON is nested 513 levels deep; scenes are copied up to 512");
+  EXPECT_THAT(error_of(file_of(300'000), kept).message, HasSubstr("nested 300001 levels deep"));
+  EXPECT_TRUE(parse_animation(file_of(300'000), "a.gltf", "").ok());
+}
+
 TEST(AnimationErrors, BuffersBesideTheFileAreReadFromItsFolderOnly) {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("medial-vk-motion-" + std::to_string(::getpid()));

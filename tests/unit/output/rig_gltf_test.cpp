@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
 #include "motion_files/mesh_motion.h"
 #include "unit/motion_files/animations.h"
@@ -26,6 +27,7 @@ struct BoundBalls {
     rig.joints[1].parent = 0;
     rig.joints[1].rest = AffineMap(AffineMap::Rows{{{0, -4, 0, 5}, {4, 0, 0, 0}, {0, 0, 4, 1}}});
     balls.frames = 3;
+    balls.joint_stretches = {1, 4};
     balls.balls.resize(3);
     for (RigBall& ball : balls.balls) {
       ball.joints = {{1, 1, {0.1, 0.2, 1.0 / 3}}};
@@ -122,6 +124,33 @@ TEST(RigGltf, RemarksOfTheSceneStay) {
   writer.document["extras"] = "no object";
   const auto one = nlohmann::json::parse(encode_rig_gltf(bound.file(), source_of(writer.glb()), false).value());
   EXPECT_EQ(one["extras"], "no object");
+}
+
+TEST(RigGltf, NamesOfFilesMayHoldAnyBytes) {
+  const BoundBalls bound;
+  const GltfSource source = source_of(skinned_animation().glb());
+  const RigFile file = {"1.2", "bow\xff.glb", bound.rig, bound.balls};
+  for (const bool is_glb : {false, true}) {
+    const Result<std::string> copy = encode_rig_gltf(file, source, is_glb);
+    ASSERT_TRUE(copy.ok());
+    const std::string json = is_glb ? source_of(copy.value()).json : copy.value();
+    EXPECT_EQ(nlohmann::json::parse(json)["extras"]["medial_vk"]["mesh"], "bow\xef\xbf\xbd.glb");
+  }
+}
+
+TEST(RigGltf, TheDeepestSourceIsCopied) {
+  const BoundBalls bound;
+  test::AnimationWriter writer = skinned_animation();
+  nlohmann::json deep = nlohmann::json::array();
+  for (std::uint64_t level = 3; level < kMostSourceLevels; ++level) deep = nlohmann::json::array({std::move(deep)});
+  writer.document["asset"]["extras"] = std::move(deep);
+  for (const bool is_glb : {false, true}) {
+    const GltfSource source = source_of(writer.glb());
+    const Result<std::string> copy = encode_rig_gltf(bound.file(), source, is_glb);
+    ASSERT_TRUE(copy.ok());
+    const auto again = parse_animation(copy.value(), "copy", "", {.keep_source = true});
+    ASSERT_TRUE(again.ok()) << again.error().message;
+  }
 }
 
 TEST(RigGltf, OtherFilesAreSeen) {

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "rigs/blend_weights.h"
+#include "rigs/joint_stretch.h"
 
 namespace medial_vk {
 namespace {
@@ -85,6 +87,40 @@ TEST(BlendWeights, OfFourJointsAreTheMinimum) {
         EXPECT_GE((offsets * other).squaredNorm(), least * (1 - 1e-12));
       }
     }
+  }
+}
+
+AffineMap scaled(double x, double y, double z) {
+  return AffineMap(AffineMap::Rows{{{x, 0, 0, 9}, {0, y, 0, 9}, {0, 0, z, 9}}});
+}
+
+TEST(JointStretch, IsTheLargestSingularValue) {
+  EXPECT_EQ(greatest_stretch(AffineMap()), 1);
+  EXPECT_EQ(greatest_stretch(scaled(1, -4, 2)), 4) << "of a reflection, too, and without the translation";
+  EXPECT_EQ(greatest_stretch(scaled(0, 0, 0)), 0);
+  // A turn before or after changes nothing but roundings: some ten operations on numbers up to the square of 4.
+  const double some_roundings = 64 * std::numeric_limits<double>::epsilon();
+  EXPECT_NEAR(greatest_stretch(turn_about_z(0.7) * scaled(1, 4, 2) * turn_about_z(-2)), 4, some_roundings);
+  // A shear by 1: the squares of its singular values solve s^2 - 3 s + 1 = 0, so the larger value is the golden ratio.
+  const AffineMap shear(AffineMap::Rows{{{1, 1, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}});
+  EXPECT_NEAR(greatest_stretch(shear), 0.5 + std::sqrt(1.25), some_roundings);
+  // Squares of these numbers are no doubles.
+  EXPECT_NEAR(greatest_stretch(scaled(1e200, 1e-200, 0)) / 1e200, 1, some_roundings);
+  EXPECT_NEAR(greatest_stretch(scaled(1e-200, 1e-201, 0)) / 1e-200, 1, some_roundings);
+  EXPECT_EQ(greatest_stretch(scaled(1, std::numeric_limits<double>::infinity(), 1)),
+            std::numeric_limits<double>::infinity());
+}
+
+TEST(JointStretch, IsTheGreatestOfAllFrames) {
+  const Arm arm;
+  const Ball ball = {{-0.5, 1.1, 0}, 0.3};
+  // The first joint stretches at rest, the second in a later frame.
+  const std::vector<RiggedFrame> frames = {{{scaled(1, 4, 1), scaled(1, 1, 0.5)}, {ball}},
+                                           {{scaled(2, 1, 1), scaled(1, 1, 3)}, {ball}},
+                                           {{scaled(1, 1, 1), scaled(0.25, 0.5, 1)}, {ball}}};
+  for (const BallBinding binding : {BallBinding::kBlended, BallBinding::kOneJoint}) {
+    const BallRig bound = bind_balls(arm.rig, arm.vertices, frames, binding, kGoOn);
+    EXPECT_EQ(bound.joint_stretches, (std::vector<double>{4, 3}));
   }
 }
 
