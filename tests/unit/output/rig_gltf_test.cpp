@@ -133,8 +133,8 @@ TEST(RigGltf, NamesOfFilesMayHoldAnyBytes) {
   for (const bool is_glb : {false, true}) {
     const Result<std::string> copy = encode_rig_gltf(file, source, is_glb);
     ASSERT_TRUE(copy.ok());
-    const std::string json = is_glb ? source_of(copy.value()).json : copy.value();
-    EXPECT_EQ(nlohmann::json::parse(json)["extras"]["medial_vk"]["mesh"], "bow\xef\xbf\xbd.glb");
+    const std::string text = is_glb ? source_of(copy.value()).json : copy.value();
+    EXPECT_EQ(nlohmann::json::parse(text)["extras"]["medial_vk"]["mesh"], "bow\xef\xbf\xbd.glb");
   }
 }
 
