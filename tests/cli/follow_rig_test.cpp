@@ -97,13 +97,13 @@ TEST_F(FollowRigNodes, NodesOfBallsAreInsideWhereJointsScale) {
   writers[1].add_channel(1, "scale", {0, 1}, {1, 1, 1, 1.5, 3, 1});
   writers[2].document["nodes"][0]["scale"] = {1, 1.5, 0.75};
   writers[2].add_channel(1, "scale", {0, 1}, {1, 1, 1, 0.5, 0.25, 0.5});
-  std::size_t balls = 0;
   for (test::AnimationWriter& writer : writers) {
     test::write_file(path("bow.glb"), writer.glb());
     const ToolResult result =
         run({"follow", "bow.glb", "--balls", "balls.csv", "--fps", "4", "--rig", "rig.glb", "-o", "bow.csv"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const SceneWithBalls scene(path("rig.glb"));
+    std::size_t balls = 0;
     for (std::size_t joint = 0; joint < scene.motion->rig()->joints.size(); ++joint) {
       for (const nlohmann::json& node : scene.balls_below(joint)) {
         const double scale = node["scale"][0], radius = node["extras"]["medial_vk"]["radius"];
@@ -125,8 +125,9 @@ TEST_F(FollowRigNodes, NodesOfBallsAreInsideWhereJointsScale) {
         ++balls;
       }
     }
+    EXPECT_EQ(scene.file["extras"]["medial_vk"]["balls"], balls);
+    EXPECT_GE(balls, 2u) << "a centre may leave the solid in one of the motions";
   }
-  EXPECT_EQ(balls, 9u);
 }
 
 // The file alone, as an engine reads it, has the balls that its numbers promise in every frame.
