@@ -25,6 +25,7 @@ std::vector<medial_vk::MedialSphere> spheres_of(const medial_vk::IndexedMesh& me
 medial_vk::FollowerJob follower(const std::vector<medial_vk::MedialSphere>& spheres, const medial_vk::IndexedMesh& rest,
                                 medial_vk::Context& context, std::uint32_t frames) {
   std::vector<medial_vk::Ball> balls;
+  balls.reserve(spheres.size());
   for (const medial_vk::MedialSphere& sphere : spheres) balls.push_back({sphere.centre, sphere.radius});
   medial_vk::FollowerJobOptions options;
   options.frames = frames;
