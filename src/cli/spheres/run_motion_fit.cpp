@@ -54,6 +54,7 @@ class MotionFitRun {
     if (options_.backend != Backend::kCpu) shared_.opening.start(options_.device, threads(), shared_.progress);
     if (Status status = open(); !status) return status;
     if (Status status = prepare(); !status) return status;
+    if (Status status = read_frames(); !status) return status;
     if (Status status = shared_.opening.take(shared_.context, shared_.device, shared_.times); !status) return status;
     if (!options_.quiet) {
       print_message(motion_fit_opening(options_, mesh_->prepared().report, motion_->frame_count(), shared_.device));
@@ -82,9 +83,6 @@ class MotionFitRun {
     shared_.progress.clear();
     if (!motion) return motion.error();
     motion_ = std::move(motion).value();
-    const Status status = read_frames();
-    shared_.progress.clear();
-    if (!status) return status;
     shared_.times.push_back({"read", stopwatch.lap()});
     return {};
   }
@@ -105,14 +103,20 @@ class MotionFitRun {
 
   /// They are read again while balls follow; but an error in one of them is better known before the long fit.
   Status read_frames() {
+    const EndAtOnce guard;
+    if (interrupted()) return stopped();
+    Stopwatch stopwatch;
     const std::uint64_t count = motion_->frame_count();
     MotionFrame frame;
-    for (std::uint64_t i = 0; i < count; ++i) {
+    Status status;
+    for (std::uint64_t i = 0; i < count && status.ok(); ++i) {
       shared_.progress.update("read", static_cast<double>(i) / static_cast<double>(count));
-      if (Status status = motion_->read_frame(i, frame); !status) return status;
-      if (Status status = check_size(frame.positions, frame.name); !status) return status;
+      status = motion_->read_frame(i, frame);
+      if (status) status = check_size(frame.positions, frame.name);
     }
-    return {};
+    shared_.progress.clear();
+    shared_.times.push_back({"read", stopwatch.lap()});
+    return status;
   }
 
   /// As for `medial-vk follow`: without new vertices.
