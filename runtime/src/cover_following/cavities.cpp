@@ -47,6 +47,7 @@ std::vector<std::vector<std::size_t>> groups_of(const std::vector<EnvelopeVertex
   std::map<std::size_t, std::vector<std::size_t>> by_root;
   for (std::size_t i = 0; i < vertices.size(); ++i) by_root[root_of(i)].push_back(i);
   std::vector<std::vector<std::size_t>> groups;
+  groups.reserve(by_root.size());
   for (auto& [least, group] : by_root) groups.push_back(std::move(group));
   return groups;
 }
