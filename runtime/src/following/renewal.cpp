@@ -172,7 +172,7 @@ class Renewal {
       if (is_lost(i)) {
         losses_.push({0, i});
       } else {
-        by_estimate.push_back({measured_.areas[i] * measured_.areas[i] / balls_[i].radius, i});
+        by_estimate.emplace_back(measured_.areas[i] * measured_.areas[i] / balls_[i].radius, i);
       }
     }
     std::ranges::sort(by_estimate);
