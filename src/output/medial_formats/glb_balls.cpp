@@ -24,7 +24,9 @@ void CentreBox::add(const Point& centre) {
 Point CentreBox::middle() const {
   Point middle;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    middle[axis] = static_cast<float>(lower_[axis] + (upper_[axis] - lower_[axis]) / 2);
+    // gcc 12.2 with -O3 leaves out the rounding of two of three axes, unless the float is in memory.
+    const volatile float rounded = static_cast<float>(lower_[axis] + (upper_[axis] - lower_[axis]) / 2);
+    middle[axis] = rounded;
   }
   return middle;
 }
