@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/rounded_to_float.h"
 #include "output/medial_formats/ball_colours.h"
 
 namespace medial_vk {
@@ -24,9 +25,7 @@ void CentreBox::add(const Point& centre) {
 Point CentreBox::middle() const {
   Point middle;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    // gcc 12.2 with -O3 leaves out the rounding of two of three axes, unless the float is in memory.
-    const volatile float rounded = static_cast<float>(lower_[axis] + (upper_[axis] - lower_[axis]) / 2);
-    middle[axis] = rounded;
+    middle[axis] = rounded_to_float(lower_[axis] + (upper_[axis] - lower_[axis]) / 2);
   }
   return middle;
 }
