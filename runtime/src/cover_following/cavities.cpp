@@ -14,7 +14,6 @@
 #include "base/point_ops.h"
 #include "sphere_fits/cover/smallest_ball.h"
 #include "sphere_fits/quality/envelope.h"
-#include "sphere_fits/quality/sphere_certificate.h"
 
 namespace medial_vk {
 namespace {
@@ -59,7 +58,7 @@ std::vector<Cavity> cavities_of(const MovingSurface& surface, const Envelope& en
   const std::vector<EnvelopeVertex>& vertices = envelope.vertices();
   std::vector<double> errors(vertices.size());  // negative: not in the solid
   parallel_for(vertices.size(), kAtOnce, threads, [&](std::size_t i) {
-    const double error = vertex_error(envelope, vertices[i]) + 2 * surface.rounding();
+    const double error = envelope.error_of(vertices[i]) + 2 * surface.rounding();
     errors[i] = std::isfinite(error) && surface.is_known_outside(vertices[i].at, error) ? -1 : error;
   });
   // A ball that holds a vertex by more than the tolerance takes it out of the envelope.

@@ -75,6 +75,35 @@ TEST(EnvelopeDistance, FromInsideTheUnionToEveryKindOfFeature) {
   EXPECT_NEAR(envelope.distance({0, 0, 0.1}), std::sqrt(0.75) - 0.1, 1e-9);
 }
 
+/// Three spheres whose centres are almost on one line share two points that rounding moves along the circle of the
+/// first two. A fourth ball holds one of them by less than that: it may be exposed in truth, so it is examined.
+TEST(EnvelopeVertices, AreKeptWhereTheirErrorReachesOut) {
+  constexpr double kOffLine = 1e-7, kDepth = 5e-9;
+  const Point common = {0.5, 0.3, std::sqrt(0.75 - 0.3 * 0.3)};
+  const Point third = {0.5, kOffLine, 0};
+  const auto with_fourth = [&](double depth) {
+    return envelope_of({{{0, 0, 0}, 1},
+                        {{1, 0, 0}, 1},
+                        {third, length(common - third)},
+                        {{common[0], common[1], common[2] + 1 - depth}, 1}});
+  };
+  const auto kept = [&](const Envelope& envelope) {
+    int count = 0;
+    for (const EnvelopeVertex& vertex : envelope.vertices()) {
+      if (vertex.balls != std::array<std::uint32_t, 3>{0, 1, 2} || length(vertex.at - common) > 1e-6) continue;
+      ++count;
+      EXPECT_GT(envelope.error_of(vertex), kDepth);
+      EXPECT_LT(envelope.error_of(vertex), 1e-6);
+      EXPECT_GE(envelope.distance_error(), envelope.error_of(vertex));
+    }
+    return count;
+  };
+  const Envelope envelope = with_fourth(kDepth);
+  EXPECT_GT(kDepth, 2 * envelope.tolerance());
+  EXPECT_EQ(kept(envelope), 1);
+  EXPECT_EQ(kept(with_fourth(1e-5)), 0) << "held by more than the error";
+}
+
 /// The nearest of many points of the envelope is never nearer than the result, and not much farther.
 TEST(EnvelopeDistance, AgreesWithSamples) {
   for (unsigned seed = 1; seed <= 4; ++seed) {

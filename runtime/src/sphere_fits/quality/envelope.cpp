@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "base/point_ops.h"
@@ -43,7 +44,10 @@ std::size_t meet(const Ball& a, const Ball& b, const Ball& c, double tolerance, 
 }
 
 Envelope::Envelope(std::span<const Ball> balls, BallUnion measured)
-    : tree_(balls), union_(std::move(measured)), tolerance_(1e-10 * magnitude_of(balls)) {
+    : tree_(balls),
+      union_(std::move(measured)),
+      tolerance_(1e-10 * magnitude_of(balls)),
+      distance_error_(4 * tolerance_) {
   first_arc_.assign(balls.size() + 1, 0);
   for (const auto& edge : union_.complex.edges) ++first_arc_[edge[0] + 1];
   for (std::size_t i = 0; i < balls.size(); ++i) first_arc_[i + 1] += first_arc_[i];
@@ -59,8 +63,42 @@ void Envelope::add_vertices(const std::array<std::uint32_t, 3>& balls) {
   const std::vector<Ball>& all = tree_.balls();
   const std::size_t count = meet(all[balls[0]], all[balls[1]], all[balls[2]], tolerance_, points);
   for (std::size_t k = 0; k < count; ++k) {
-    if (is_exposed(points[k])) vertices_.push_back({points[k], balls});
+    const EnvelopeVertex vertex = {points[k], balls};
+    if (is_exposed(vertex.at)) {
+      vertices_.push_back(vertex);
+      continue;
+    }
+    // The common point itself may be exposed where its error reaches out of the balls.
+    const double error = error_of(vertex);
+    if (tree_.holds(vertex.at, error)) continue;
+    vertices_.push_back(vertex);
+    distance_error_ = std::max(distance_error_, 4 * error);
   }
+}
+
+/// The residual of the equations of the three spheres, times the inverse of their directions; where they nearly touch,
+/// the root of it.
+double Envelope::error_of(const EnvelopeVertex& vertex) const {
+  std::array<Point, 3> directions;
+  double residual = 0, radius = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Ball& ball = tree_.balls()[vertex.balls[k]];
+    const Point to = vertex.at - ball.centre;
+    const double distance = length(to);
+    if (!(distance > 0)) return std::numeric_limits<double>::infinity();
+    directions[k] = (1 / distance) * to;
+    residual = std::max(residual, std::fabs(distance - ball.radius));
+    radius = std::max(radius, ball.radius);
+  }
+  // The norm of the inverse is at most the root of the sum of the squares of its entries.
+  const Point yz = cross(directions[1], directions[2]), zx = cross(directions[2], directions[0]),
+              xy = cross(directions[0], directions[1]);
+  const double determinant = std::fabs(dot(directions[0], yz));
+  const double entries = std::sqrt(dot(yz, yz) + dot(zx, zx) + dot(xy, xy));
+  // Of parallel directions entries are 0, too.
+  const double inverse = determinant > 1e-300 ? entries / determinant : std::numeric_limits<double>::infinity();
+  const double left = residual + 16 * 0x1p-53 * (radius + length(vertex.at));
+  return std::min(2 * left * inverse, 4 * std::sqrt((left + 2 * tolerance_) * radius));
 }
 
 Result<Envelope> Envelope::build(std::span<const Ball> balls, unsigned threads) {

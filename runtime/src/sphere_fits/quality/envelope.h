@@ -20,14 +20,20 @@ class Envelope {
 
   const NearestBallTree& tree() const { return tree_; }
   const BallUnion& measured() const { return union_; }
-  /// Common points of three spheres that lie in no ball by more than tolerance(); where more than three spheres meet
-  /// there may be several of them.
+  /// Common points of three spheres, computed, that lie in no ball by more than tolerance() or by more than their own
+  /// error: no exposed common point is missing. Where more than three spheres meet there may be several of them.
   const std::vector<EnvelopeVertex>& vertices() const { return vertices_; }
+  /// Bound of the distance of a computed vertex from the common point of its three spheres; infinite where none is
+  /// known.
+  double error_of(const EnvelopeVertex& vertex) const;
   /// The greatest depth in a ball at which a point still counts as one of the envelope.
   double tolerance() const { return tolerance_; }
 
-  /// From a point to the envelope, on either side of it, within 4 tolerance(). If the exact answer is at most `enough`,
-  /// the result may be any number between it and `enough`.
+  /// Bound of the error of distance(): 4 tolerance(), or more where a vertex is less well known.
+  double distance_error() const { return distance_error_; }
+
+  /// From a point to the envelope, on either side of it, within distance_error(). If the exact answer is at most
+  /// `enough`, the result may be any number between it and `enough`.
   double distance(const Point& p, double enough = 0) const;
   /// The same as distance(), negative in the balls (Figure 8-2 has the opposite sign for the boundary).
   double signed_distance(const Point& p) const;
@@ -42,6 +48,7 @@ class Envelope {
   NearestBallTree tree_;
   BallUnion union_;
   double tolerance_;
+  double distance_error_;
   std::vector<EnvelopeVertex> vertices_;
   // Of ball i: arcs with greater balls and vertices of greater balls, [first[i], first[i + 1]).
   std::vector<std::uint32_t> first_arc_, first_vertex_;

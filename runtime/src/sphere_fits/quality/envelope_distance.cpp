@@ -170,7 +170,7 @@ class Measure {
     const double lower =
         greatest_at_vertices([&](const Point& p) { return solid_.contains(p) ? 0.0 : solid_.distance(p); });
     return rounded(bound_supremum(std::vector<Cube>{cube_around(others)}, lower, limits_, evaluate, split_cube),
-                   slack_ + 4 * envelope_.tolerance());
+                   slack_ + envelope_.distance_error());
   }
 
   template <class Distance>
@@ -198,7 +198,7 @@ class Measure {
       const double distance = envelope_.distance(middle, enough);
       return {distance > enough ? distance : kNone, distance + reach};
     };
-    return rounded(bound_supremum(parts_, lower, limits_, evaluate, split_part), slack_ + 4 * envelope_.tolerance());
+    return rounded(bound_supremum(parts_, lower, limits_, evaluate, split_part), slack_ + envelope_.distance_error());
   }
 
   Bounds envelope_to_boundary() const {
@@ -218,7 +218,7 @@ class Measure {
       return cell;
     };
     return rounded(bound_supremum(std::vector<Cube>{cube_around(tree_.balls())}, lower, limits_, evaluate, split_cube),
-                   slack_ + 4 * envelope_.tolerance());
+                   slack_ + envelope_.distance_error());
   }
 
   const Solid& solid_;

@@ -139,7 +139,7 @@ void test_vertices(const Solid& solid, const Envelope& envelope, const Threads& 
   std::vector<std::uint8_t> is_inside(vertices.size());
   for_all(vertices.size(), 64, threads, [&](std::size_t i) {
     const Point& at = vertices[i].at;
-    const double error = vertex_error(envelope, vertices[i]) + 2 * solid.rounding();
+    const double error = envelope.error_of(vertices[i]) + 2 * solid.rounding();
     is_inside[i] = solid.contains(at) || !std::isfinite(error) || solid.bvh().any_within(at, error);
   });
   proof.vertices = vertices.size();
@@ -149,31 +149,6 @@ void test_vertices(const Solid& solid, const Envelope& envelope, const Threads& 
 }
 
 }  // namespace
-
-/// The residual of the equations of the three spheres, times the inverse of their directions; where they nearly touch,
-/// the root of it.
-double vertex_error(const Envelope& envelope, const EnvelopeVertex& vertex) {
-  std::array<Point, 3> directions;
-  double residual = 0, radius = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Ball& ball = envelope.tree().balls()[vertex.balls[k]];
-    const Point to = vertex.at - ball.centre;
-    const double distance = length(to);
-    if (!(distance > 0)) return std::numeric_limits<double>::infinity();
-    directions[k] = (1 / distance) * to;
-    residual = std::max(residual, std::fabs(distance - ball.radius));
-    radius = std::max(radius, ball.radius);
-  }
-  // The norm of the inverse is at most the root of the sum of the squares of its entries.
-  const Point yz = cross(directions[1], directions[2]), zx = cross(directions[2], directions[0]),
-              xy = cross(directions[0], directions[1]);
-  const double determinant = std::fabs(dot(directions[0], yz));
-  const double entries = std::sqrt(dot(yz, yz) + dot(zx, zx) + dot(xy, xy));
-  // Of parallel directions entries are 0, too.
-  const double inverse = determinant > 1e-300 ? entries / determinant : std::numeric_limits<double>::infinity();
-  const double left = residual + 16 * kUnit * (radius + length(vertex.at));
-  return std::min(2 * left * inverse, 4 * std::sqrt((left + 2 * envelope.tolerance()) * radius));
-}
 
 InsideProof prove_inside(const Solid& solid, std::span<const Ball> balls, const Threads& threads) {
   std::vector<double> excess(balls.size());

@@ -12,10 +12,6 @@
 
 namespace medial_vk {
 
-/// Bound of the distance of a computed vertex of the envelope from the common point of its three spheres; infinite
-/// where none is known.
-double vertex_error(const Envelope& envelope, const EnvelopeVertex& vertex);
-
 /// Throws Stopped at a stop by `threads`.
 InsideProof prove_inside(const Solid& solid, std::span<const Ball> balls, const Threads& threads = {});
 
