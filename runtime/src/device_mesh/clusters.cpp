@@ -5,7 +5,6 @@
 
 #include "base/parallel.h"
 #include "base/point_ops.h"
-#include "base/rounded_to_float.h"
 #include "medial_vk/mesh_view.h"
 
 namespace medial_vk {
@@ -104,7 +103,9 @@ Point mean_normal(const Facets& facets) {
 }
 
 // The axis as rounded for the device, to which all bounds refer.
-Point as_float(const Point& p) { return {rounded_to_float(p[0]), rounded_to_float(p[1]), rounded_to_float(p[2])}; }
+Point as_float(const Point& p) {
+  return {double{static_cast<float>(p[0])}, double{static_cast<float>(p[1])}, double{static_cast<float>(p[2])}};
+}
 
 // The cylinder around all corners whose axis is `axis`, through the middle of their extents.
 void put_cylinder(const Facets& facets, const Point& axis, gpu::Cluster& cluster) {

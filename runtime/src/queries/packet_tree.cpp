@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/point_ops.h"
-#include "base/rounded_to_float.h"
 #include "device/context_impl.h"
 #include "device_commands/uploads.h"
 
@@ -60,7 +59,9 @@ Texel texel(const Point& xyz, double w) {
   return {static_cast<float>(xyz[0]), static_cast<float>(xyz[1]), static_cast<float>(xyz[2]), static_cast<float>(w)};
 }
 
-Point rounded(const Point& p) { return {rounded_to_float(p[0]), rounded_to_float(p[1]), rounded_to_float(p[2])}; }
+Point rounded(const Point& p) {
+  return {double{static_cast<float>(p[0])}, double{static_cast<float>(p[1])}, double{static_cast<float>(p[2])}};
+}
 
 /// `v` scaled to length 1, or `otherwise` if its length is negligible.
 Point unit_or(const Point& v, const Point& otherwise) {

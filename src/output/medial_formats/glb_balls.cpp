@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/rounded_to_float.h"
 #include "output/medial_formats/ball_colours.h"
 
 namespace medial_vk {
@@ -25,7 +24,7 @@ void CentreBox::add(const Point& centre) {
 Point CentreBox::middle() const {
   Point middle;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    middle[axis] = rounded_to_float(lower_[axis] + (upper_[axis] - lower_[axis]) / 2);
+    middle[axis] = static_cast<float>(lower_[axis] + (upper_[axis] - lower_[axis]) / 2);
   }
   return middle;
 }
