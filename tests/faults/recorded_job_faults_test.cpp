@@ -230,10 +230,11 @@ TEST(FramesOfBalls, AllocateNothing) {
   const IndexedMesh mesh = indexed(prepare(make_torus(1.0, 0.4, 24, 12)));
   std::vector<Ball> balls;
   for (int i = 0; i < 20; ++i) balls.push_back({{std::cos(0.3 * i), std::sin(0.3 * i), 0}, 0.3});
-  for (const FollowRule rule : {FollowRule::kTangent, FollowRule::kPublished}) {
+  for (const auto& [rule, threads] : {std::pair(FollowRule::kTangent, 1u), std::pair(FollowRule::kTangent, 3u),
+                                      std::pair(FollowRule::kPublished, 1u), std::pair(FollowRule::kPublished, 3u)}) {
     FollowerOptions options;
     options.rule = rule;
-    options.threads = 1;
+    options.threads = threads;
     Follower follower = Follower::create(mesh, balls, options).value();
     for (int frame = 0; frame < 10; ++frame) {
       std::vector<Point> bent(mesh.view().vertices.begin(), mesh.view().vertices.end());

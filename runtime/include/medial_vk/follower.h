@@ -40,7 +40,9 @@ struct FollowerOptions {
   /// It is tried in frames whose uncovered share of the volume is more than this many times that in the rest pose (by
   /// FollowMeasures); from 1 up.
   double renewal_factor = 1.5;
-  unsigned threads = 0;  ///< Of the host, 0: one per core. The result does not depend on it.
+  /// Of the host, 0: one per core; of those, a follower keeps as many as its balls give work to. The result does not
+  /// depend on it.
+  unsigned threads = 0;
 
   bool operator==(const FollowerOptions&) const = default;
 };

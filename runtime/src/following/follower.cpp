@@ -17,6 +17,7 @@
 #include "following/renewal.h"
 #include "following/tangent_rule.h"
 #include "following/tracked_ball.h"
+#include "following/worker_pool.h"
 #include "medial_vk/ball_union.h"
 
 namespace medial_vk {
@@ -77,7 +78,9 @@ class Follower::Impl {
                                               const FollowerOptions& options) {
     Result<MovingSurface> surface = MovingSurface::build(rest);
     if (!surface) return surface.error();
-    std::unique_ptr<Impl> impl(new Impl(std::move(surface).value(), options));
+    const std::size_t blocks = (balls.size() + kBlock - 1) / kBlock;
+    const auto threads = static_cast<unsigned>(std::min<std::size_t>(thread_count(options.threads), blocks));
+    std::unique_ptr<Impl> impl(new Impl(std::move(surface).value(), options, threads));
     if (Status status = impl->take(balls); !status) return status.error();
     return impl;
   }
@@ -122,7 +125,8 @@ class Follower::Impl {
   }
 
  private:
-  Impl(MovingSurface surface, const FollowerOptions& options) : surface_(std::move(surface)), options_(options) {}
+  Impl(MovingSurface surface, const FollowerOptions& options, unsigned threads)
+      : surface_(std::move(surface)), options_(options), pool_(threads) {}
 
   double protrusion() const { return options_.protrusion * surface_.rest_side(); }
 
@@ -165,7 +169,7 @@ class Follower::Impl {
 
   template <class Work>
   void for_each_ball(const Work& work) {
-    parallel_for(tracked_.size(), kBlock, options_.threads, work);
+    pool_.run(tracked_.size(), kBlock, work);
   }
 
   Status follow_as_published() {
@@ -319,6 +323,7 @@ class Follower::Impl {
 
   MovingSurface surface_;
   FollowerOptions options_;
+  WorkerPool pool_;  // of loops over balls, which come several times a frame
   std::vector<TrackedBall> tracked_, rest_;
   std::vector<TrackedBall> before_;  // the last step of the same frame: inside, or of radius 0
   std::vector<Ball> present_;        // of tracked_, within an update
