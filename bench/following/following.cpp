@@ -1,14 +1,15 @@
 // Balls that follow a mesh through five motions of 20 frames: rows of a table.
-//   bench_following [--frames N] [--repeats N] [--threads N] [--motion NAME] [--fresh] MESH BALLS.csv
+//   bench_following [--frames N] [--repeats N] [--threads N] [--motion NAME] [--fresh | --extract N] MESH BALLS.csv
 // For each motion and rule: the share of the solid's volume that is in no ball at its end, and after the way back; the
 // time of a frame by the clock and of the processor, medians of all frames and repeats; with --fresh beside a new fit
-// of as many balls to the last frame.
+// of as many balls to the last frame, with --extract beside all medial points of the last frame at resolution N.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <optional>
@@ -19,6 +20,8 @@
 #include "../helpers.h"
 #include "../unions/ball_files.h"
 #include "input/read_mesh.h"
+#include "medial_vk/ball_union.h"
+#include "medial_vk/certify.h"
 #include "medial_vk/context.h"
 #include "medial_vk/follower.h"
 #include "medial_vk/prepare.h"
@@ -99,16 +102,30 @@ void follow(const std::string& title, const Rule& rule, const IndexedMesh& mesh,
   std::fflush(stdout);
 }
 
-/// Percent of the volume that a new fit to the frame leaves uncovered.
-std::string fresh_fit(const IndexedMesh& mesh, const std::vector<Point>& frame, std::size_t count, Context& context) {
+IndexedMesh moved_mesh(const IndexedMesh& mesh, const std::vector<Point>& frame) {
   Mesh moved;
   moved.vertices = frame;
   moved.triangles.assign(mesh.view().triangles.begin(), mesh.view().triangles.end());
-  const IndexedMesh indexed = or_exit(IndexedMesh::build(or_exit(prepare_mesh(std::move(moved)))));
+  return or_exit(IndexedMesh::build(or_exit(prepare_mesh(std::move(moved)))));
+}
+
+/// Percent of the volume that a new fit to the frame leaves uncovered.
+std::string fresh_fit(const IndexedMesh& mesh, std::size_t count, Context& context) {
   SphereFitOptions options;
   options.count = count;
-  const SphereFit fit = or_exit(fit_spheres(indexed, options, context));
+  const SphereFit fit = or_exit(fit_spheres(mesh, options, context));
   return fmt::format("{:.2f}", 100 * fit.measures.volume.uncovered / fit.measures.volume.solid);
+}
+
+/// Percent of the volume in no ball around a medial point of the frame.
+std::string fresh_points(const IndexedMesh& mesh, int resolution, Context& context) {
+  ExtractionOptions options;
+  options.resolution = resolution;
+  const CertifiedExtraction found = or_exit(extract_and_certify(mesh, options, context));
+  std::vector<Ball> balls;
+  for (const MedialSphere& sphere : found.extraction.spheres) balls.push_back({sphere.centre, sphere.radius});
+  const double solid = std::fabs(mesh.prepared().report.signed_volume);
+  return fmt::format("{:.2f}", 100 * (1 - or_exit(measure_ball_union(balls)).volume / solid));
 }
 
 }  // namespace
@@ -116,25 +133,28 @@ std::string fresh_fit(const IndexedMesh& mesh, const std::vector<Point>& frame, 
 int main(int argc, char** argv) {
   CLI::App app{"Balls that follow a mesh"};
   std::string mesh_file, ball_file, only;
-  int frames = 20, repeats = 1;
+  int frames = 20, repeats = 1, resolution = 0;
   bool fresh = false;
   unsigned threads = 0;
   app.add_option("--frames", frames)->check(CLI::PositiveNumber);
   app.add_option("--repeats", repeats)->check(CLI::PositiveNumber);
   app.add_option("--threads", threads);
   app.add_option("--motion", only);
-  app.add_flag("--fresh", fresh);
+  CLI::Option* fit = app.add_flag("--fresh", fresh);
+  app.add_option("--extract", resolution)->check(CLI::PositiveNumber)->excludes(fit);
   app.add_option("MESH", mesh_file)->required();
   app.add_option("BALLS", ball_file)->required();
   CLI11_PARSE(app, argc, argv);
   const IndexedMesh mesh = or_exit(IndexedMesh::build(or_exit(prepare_mesh(or_exit(read_mesh(mesh_file))))));
   const std::vector<Ball> balls = read_balls(ball_file);
   std::optional<Context> context;
-  if (fresh) context.emplace(or_exit(Context::create()));
+  if (fresh || resolution > 0) context.emplace(or_exit(Context::create()));
   for (const Motion motion : kMotions) {
     if (!only.empty() && only != name_of(motion)) continue;
     const Frames moved = frames_of(mesh.view().vertices, motion, frames);
-    const std::string again = context ? fresh_fit(mesh, moved.back(), balls.size(), *context) : "";
+    std::string again;
+    if (fresh) again = fresh_fit(moved_mesh(mesh, moved.back()), balls.size(), *context);
+    if (resolution > 0) again = fresh_points(moved_mesh(mesh, moved.back()), resolution, *context);
     for (const Rule& rule : kRules) follow(name_of(motion), rule, mesh, balls, moved, repeats, again, threads);
   }
 }
