@@ -212,11 +212,9 @@ class CoverCheck {
            gap >= std::abs(balls_[a].radius - balls_[b].radius) - room;
   }
 
-  /// True if a ball holds the ball of radius `error` around the point, and more than rounding.
-  bool is_held(const Vector3d& at, double error, const std::vector<std::size_t>& by) const {
+  bool is_held(const Vector3d& at, const std::vector<std::size_t>& by) const {
     return std::any_of(by.begin(), by.end(), [&](std::size_t i) {
-      const double room = std::max(error, 1e-10 * (balls_[i].radius + at.norm()));
-      return (at - balls_[i].centre).norm() < balls_[i].radius - room;
+      return (at - balls_[i].centre).norm() < balls_[i].radius - 1e-10 * (balls_[i].radius + at.norm());
     });
   }
 
@@ -224,10 +222,9 @@ class CoverCheck {
     const Corner corner(balls_[a], balls_[b], balls_[c]);
     if (!corner.exists()) return;
     for (const Vector3d& at : corner.points()) {
-      const double error = corner.error(at);
-      if (is_held(at, error, near)) continue;
+      if (is_held(at, near)) continue;
       const double distance = tree_.closest(at).distance - 2 * tree_.rounding();
-      const double margin = is_inside(tree_, at) ? -1 : distance - error;
+      const double margin = is_inside(tree_, at) ? -1 : distance - corner.error(at);
       corners_.test(margin, "corner of ball", a, at);
     }
   }
