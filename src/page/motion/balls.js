@@ -55,9 +55,10 @@ export class BallLayer {
     this.parts = new SeenParts(count);
     this.maps = {states: colourMap(stateTexels(motion)), numbers: colourMap(colourTexels())};
     this.uniforms = {...uniforms, places: {value: this.places}, others: {value: this.others}, order: {value: this.order},
-      rectangles: {value: this.rectangles}, colourMap: {value: null}};
+      rectangles: {value: this.rectangles}, colourMap: {value: null}, ballOpacity: {value: 1}};
+    const defines = isCover(motion) ? {ORDERED: '', SCREENED: ''} : {ORDERED: ''};
     this.object = placed(new Mesh(corners(kCornersOfABall * count), material(common + attributes + seenBallVertex,
-      common + ballFragment, this.uniforms, {...kOpaque, defines: {ORDERED: ''}})), kOrder.content);
+      common + ballFragment, this.uniforms, {...kOpaque, defines})), kOrder.content);
     let greatest = 0;
     for (let i = 3; i < this.balls.length; i += 4) greatest = Math.max(greatest, this.balls[i]);
     this.greatest = greatest;
@@ -73,6 +74,9 @@ export class BallLayer {
     this.uniforms.colourMap.value = by === 'state' ? this.maps.states : this.maps.numbers;
     this.show(this.frame);
   }
+
+  /** 0: invisible, 1: opaque. Of a cover alone, which hides the mesh. */
+  setOpacity(share) { this.uniforms.ballOpacity.value = share; }
 
   /** `frame`: among those with geometry. */
   show(frame) {

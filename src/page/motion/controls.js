@@ -124,6 +124,11 @@ export class MotionControls {
     followTheme(viewer);
     byId('up').value = motion.up;
     viewer.setUp(motion.up);
+    if (isCover(motion)) {
+      // The balls are around the mesh, which is seen through them.
+      byId('opacity').value = 100;
+      byId('ball-slider').hidden = false;
+    }
     this.refreshOpacity();
     this.refreshColour();
     for (const name of kLayers) viewer.showLayer(name, byId(`layer-${name}`).checked);
@@ -160,7 +165,7 @@ export class MotionControls {
     for (const name of kLayers) {
       byId(`layer-${name}`).addEventListener('change', (event) => viewer.showLayer(name, event.target.checked));
     }
-    byId('opacity').addEventListener('input', () => this.refreshOpacity());
+    for (const id of ['opacity', 'ball-opacity']) byId(id).addEventListener('input', () => this.refreshOpacity());
     byId('colour-by').addEventListener('input', () => this.refreshColour());
     byId('up').addEventListener('change', (event) => viewer.setUp(event.target.value));
     byId('reset').addEventListener('click', () => viewer.resetView());
@@ -223,6 +228,10 @@ export class MotionControls {
     const share = Number(byId('opacity').value);
     byId('opacity-value').textContent = `${share} %`;
     this.viewer.setOpacity(share / 100);
+    if (!isCover(this.motion)) return;
+    const ofBalls = Number(byId('ball-opacity').value);
+    byId('ball-opacity-value').textContent = `${ofBalls} %`;
+    this.viewer.setBallOpacity(ofBalls / 100);
   }
 
   refreshColour() {

@@ -59,6 +59,11 @@ export class MotionViewer extends View {
     this.draw();
   }
 
+  setBallOpacity(share) {
+    this.balls.setOpacity(share);
+    this.draw();
+  }
+
   /** Whether frames follow each other: then the picture may be coarser than the screen. */
   setMoving(moving) {
     this.moving = moving;
