@@ -44,6 +44,8 @@ export const motionTests = {
     assert.equal(await page.evaluate('document.title'), 'ring.obj - balls in motion');
     assert.match(await page.text('facts'), /^30 balls, 1,024 triangles, 12 frames$/);
     assert.match(await page.text('proof'), /proved to lie inside the mesh of its frame; nothing between two frames/);
+    assert.equal(await page.text('curve-name'), 'uncovered');
+    assert.ok(!await page.evaluate("document.getElementById('ball-opacity').checkVisibility()"));
     await assertNumbers(page, motion, 0);
     for (const number of [7, 11, 3]) {
       await moveSlider(page, number);
@@ -351,6 +353,14 @@ export const motionTests = {
         assert.ok(radius <= ball[3] + 1e-6 * scale, `${number} ${i}: ${radius}, far above ${ball[3]}`);
       }
     }
+    // The mesh is seen through the balls, unless they are opaque.
+    const through = await look(page);
+    await page.evaluate(`{ const e = document.getElementById('ball-opacity'); e.value = 100;
+      e.dispatchEvent(new Event('input', {bubbles: true})); }`);
+    const opaque = await look(page);
+    assert.notEqual(opaque.mark, through.mark);
+    await page.clickElement('layer-mesh');
+    assert.equal((await look(page)).mark, opaque.mark, 'opaque balls hide the mesh');
     await page.clickElement('open-help');
     assert.match(await page.text('curve-meaning'), /outside of the solid/);
     assertQuiet(page);

@@ -259,7 +259,7 @@ TEST_F(MotionPageBytes, OfACoverSayWhatIsProved) {
   EXPECT_THAT(text,
               HasSubstr("\"added\":25.0,\"reach_out\":0.125,\"solid\":true,\"steady\":1,\"grown\":1,\"unused\":0}"));
   EXPECT_THAT(text, HasSubstr("\"reach_out\":null,\"solid\":false,\"steady\":0,\"grown\":1,\"unused\":1}"));
-  EXPECT_THAT(text, Not(HasSubstr("\"uncovered\"")));
+  EXPECT_THAT(text, Not(HasSubstr("\"uncovered\":")));
   EXPECT_THAT(text, HasSubstr(element("states", std::array<std::uint8_t, 6>{1, 0, 1, 2, 1, 0})));
 }
 
