@@ -1,41 +1,8 @@
 // The properties of the page of a motion, each as a test: run.mjs runs one of them, as motion_NAME.
 import assert from 'node:assert/strict';
 
+import {assertNumbers, frameOf, isPlaying, moveSlider, numbersShown, openMotion, tableRows} from './motion_steps.mjs';
 import {assertQuiet, checked, evaluateInPage, focus, grouped, look, numbersIn, selectOption} from './steps.mjs';
-
-/** Makes a page and opens it; the result has the page, and the numbers in its file. */
-async function openMotion({workshop, browser}, options = [], size = {}) {
-  workshop.run('page.html', 'frames=12', 'balls=30', ...options);
-  const text = workshop.read('page.html').toString();
-  const motion = JSON.parse(text.match(/id="motion">(.*?)<\/script>/s)[1]);
-  const page = await browser.open(size);
-  await page.load(workshop.url('page.html'));
-  return {page, motion};
-}
-
-const frameOf = (page) => page.evaluate('medialVk.player.frame');
-const isPlaying = (page) => page.evaluate('medialVk.player.playing');
-
-/** The numbers of the present frame, by name. */
-const numbersShown = (page) => page.evaluate(`Object.fromEntries([...document.querySelectorAll('#numbers dt')].map((dt) =>
-  [dt.textContent, dt.nextSibling.textContent]))`);
-
-const moveSlider = (page, value) => page.evaluate(`{ const e = document.getElementById('time'); e.value = ${value};
-  e.dispatchEvent(new Event('input', {bubbles: true})); }`);
-
-/** Asserts that the panel shows the numbers of the file. */
-async function assertNumbers(page, motion, number) {
-  const shown = await numbersShown(page), frame = motion.frames[number];
-  assert.equal(shown.frame, String(number));
-  assert.equal(shown.name, frame.name);
-  assert.ok(Math.abs(numbersIn(shown.time)[0] - frame.time) <= 5e-4, shown.time);
-  assert.ok(Math.abs(numbersIn(shown.uncovered)[0] - frame.uncovered) <= 1e-4 * frame.uncovered, shown.uncovered);
-  for (const state of ['medial', 'flat', 'shrunk', 'lost']) assert.equal(shown[state], String(frame[state]), state);
-  return shown;
-}
-
-const tableRows = (page) => page.evaluate(`[...document.querySelectorAll('#frames-body tbody tr')].map((row) =>
-  [...row.cells].map((cell) => cell.textContent))`);
 
 export const motionTests = {
   async numbers_and_slider(context) {
@@ -319,50 +286,6 @@ export const motionTests = {
     const {outside} = motion.frames[6];
     assert.ok(outside > 0);
     assert.ok(Math.abs(numbersIn((await numbersShown(page))['outside, at most'])[0] - outside) <= 1e-4 * outside);
-    assertQuiet(page);
-  },
-
-  /** A cover has a curve, numbers and states of its own, and each drawn ball holds the one of the record. */
-  async cover(context) {
-    const {page, motion} = await openMotion(context, ['rule=cover', 'motion=twist', 'raw=raw']);
-    assert.match(await page.text('proof'), /^The balls are proved to cover the solid of each frame; nothing between/);
-    assert.match(await page.text('legend'), /^state of the ball\s*steady\s*grown$/);
-    assert.equal(await page.text('curve-name'), 'added');
-    const raw = new Float64Array(new Uint8Array(context.workshop.read('raw')).buffer);
-    const size = 3 * motion.vertices + 4 * motion.balls;
-    const {lower, upper, scale} = motion;
-    for (const number of [0, 7, 3]) {
-      await moveSlider(page, number);
-      const shown = await numbersShown(page), frame = motion.frames[number];
-      assert.ok(Math.abs(numbersIn(shown.added)[0] - frame.added) <= 1e-4 * frame.added, shown.added);
-      const reach = numbersIn(shown['reach out, at most'])[0];
-      assert.ok(Math.abs(reach - frame.reach_out) <= 5e-3 * frame.reach_out, shown['reach out, at most']);
-      assert.equal(shown.covered, 'the solid');
-      for (const state of ['steady', 'grown', 'unused']) assert.equal(shown[state], String(frame[state]), state);
-      assert.equal(shown.uncovered, undefined);
-      const balls = await page.evaluate('Array.from(medialVk.viewer.balls.places.image.data)');
-      for (let i = 0; i < motion.balls; ++i) {
-        const ball = raw.subarray(number * size + 3 * motion.vertices + 4 * i, number * size + 3 * motion.vertices + 4 * i + 4);
-        const away = [0, 1, 2].map((k) => (lower[k] + upper[k]) / 2 + balls[4 * i + k] * scale - ball[k]);
-        const radius = balls[4 * i + 3] * scale;
-        if (ball[3] === 0) {
-          assert.equal(radius, 0, `${number} ${i}: unused`);
-          continue;
-        }
-        assert.ok(radius >= Math.hypot(...away) + ball[3] - 1e-14, `${number} ${i}: ${radius}, not above ${ball[3]}`);
-        assert.ok(radius <= ball[3] + 1e-6 * scale, `${number} ${i}: ${radius}, far above ${ball[3]}`);
-      }
-    }
-    // The mesh is seen through the balls, unless they are opaque.
-    const through = await look(page);
-    await page.evaluate(`{ const e = document.getElementById('ball-opacity'); e.value = 100;
-      e.dispatchEvent(new Event('input', {bubbles: true})); }`);
-    const opaque = await look(page);
-    assert.notEqual(opaque.mark, through.mark);
-    await page.clickElement('layer-mesh');
-    assert.equal((await look(page)).mark, opaque.mark, 'opaque balls hide the mesh');
-    await page.clickElement('open-help');
-    assert.match(await page.text('curve-meaning'), /outside of the solid/);
     assertQuiet(page);
   },
 
