@@ -189,6 +189,29 @@ TEST_F(FollowCovers, AFileThatDoesNotCoverIsRefused) {
   EXPECT_THAT(cavity.err, HasSubstr("--balls shell.csv: the balls do not cover large.obj: they leave a cavity"));
 }
 
+TEST_F(FollowCovers, AFileWithNumbersOutOfRangeIsRefused) {
+  test::write_file(path("far.csv"), "x,y,z,radius\n0.5,0.5,0.5,4\n1e19,0,0,1\n");
+  const ToolResult far = follow({"box_0.obj", "box_1.obj", "--balls", "far.csv"});
+  EXPECT_EQ(far.exit_code, 2);
+  EXPECT_THAT(far.err, HasSubstr("--balls far.csv: ball 1 of the file is not finite"));
+}
+
+TEST_F(FollowCovers, StepsAndDivisionsNeverMakeThemLarger) {
+  const auto volumes = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"-q", "-o", "-"});
+    const ToolResult result = follow_box(std::move(more));
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    std::vector<double> found;
+    for (const auto& line : cover_table(result.out)) found.push_back(std::stod(line.at(4)));
+    EXPECT_EQ(found.size(), 3u);
+    return found;
+  };
+  const std::vector<double> none = volumes({"--steps", "0"}), steps = volumes({"--steps", "4"});
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_LE(steps[i], none[i]) << i;
+  EXPECT_LT(steps[2], none[2]);
+  EXPECT_LE(volumes({"--steps", "0", "--tighten"})[0], none[0]) << "the rest pose, which is divided anew, too";
+}
+
 TEST_F(FollowCovers, OptionsOfBallsInsideAreRefused) {
   const ToolResult rig = follow_box({"--renew", "3"});
   EXPECT_EQ(rig.exit_code, 2);

@@ -14,6 +14,12 @@ namespace {
 
 std::string place(const Point& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p[0], p[1], p[2]); }
 
+/// The file of the balls, if they come from one, before what is said about them.
+Error in_words_of_file(const Error& error, const FollowOptions& options) {
+  if (options.balls.empty() || error.code != ErrorCode::kUsage) return error;
+  return {error.code, fmt::format("--balls {}: {} (balls count from 0)", options.balls, error.message)};
+}
+
 /// Why balls of a file do not cover the mesh at rest, or an empty text. Of an open mesh only the surface is asked for.
 std::string what_is_not_covered(const CoverProof& proof) {
   if (!proof.surface_proved()) {
@@ -85,7 +91,7 @@ Result<std::unique_ptr<MovingBalls>> balls_that_stay_a_cover(const FollowOptions
                                                              std::span<const Ball> balls) {
   if (!options.balls.empty()) {
     const Result<SphereProofs> proofs = prove_spheres(mesh, {}, balls, {options.follower.threads});
-    if (!proofs) return proofs.error();
+    if (!proofs) return in_words_of_file(proofs.error(), options);
     if (const std::string why = what_is_not_covered(proofs.value().cover); !why.empty()) {
       return Error{ErrorCode::kUsage,
                    fmt::format("--balls {}: the balls do not cover {}: {}", options.balls, options.rest, why)};
@@ -95,7 +101,7 @@ Result<std::unique_ptr<MovingBalls>> balls_that_stay_a_cover(const FollowOptions
   cover.steps = options.follower.steps;
   cover.threads = options.follower.threads;
   Result<CoverFollower> follower = CoverFollower::create(mesh, balls, cover);
-  if (!follower) return follower.error();
+  if (!follower) return in_words_of_file(follower.error(), options);
   if (options.tighten) {
     if (Status status = follower.value().tighten(); !status) return status.error();
   }
