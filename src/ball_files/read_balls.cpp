@@ -83,10 +83,10 @@ Result<std::vector<Ball>> balls_of_medial_ply(const std::string& path) {
   return balls;
 }
 
-Result<std::vector<Ball>> balls_of_body(const std::string& path) {
+Result<std::vector<Ball>> balls_of_body(const std::string& path, BodyBalls which) {
   Result<BodyFile> file = read_body_file(path);
   if (!file) return file.error();
-  return std::move(file.value().inside);
+  return std::move(which == BodyBalls::kInside ? file.value().inside : file.value().cover);
 }
 
 Result<std::vector<Ball>> balls_of_table(const std::string& path) {
@@ -119,10 +119,10 @@ Result<std::vector<Ball>> parse_balls(std::string_view text, const std::string& 
   return balls;
 }
 
-Result<std::vector<Ball>> read_balls(const std::string& path) {
+Result<std::vector<Ball>> read_balls(const std::string& path, BodyBalls of_body) {
   const std::string extension = file_extension(path);
   Result<std::vector<Ball>> balls = extension == ".ply"   ? balls_of_medial_ply(path)
-                                    : extension == ".npz" ? balls_of_body(path)
+                                    : extension == ".npz" ? balls_of_body(path, of_body)
                                                           : balls_of_table(path);
   if (balls && balls.value().empty()) return file_error(path, "there is no ball");
   return balls;

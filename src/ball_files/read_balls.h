@@ -15,8 +15,11 @@ namespace medial_vk {
 /// a robot, is refused. Numbers are finite and radii positive. Error: kInvalidMesh, with `name` and the line at fault.
 Result<std::vector<Ball>> parse_balls(std::string_view text, const std::string& name);
 
-/// A medial PLY has the balls of its points, a body file (.npz) those inside; any other name is that of a table; "-": a
-/// table on standard input. Errors: kInvalidMesh (the file cannot be read, or has no ball), kOutOfMemory.
-Result<std::vector<Ball>> read_balls(const std::string& path);
+/// Which balls of a body file.
+enum class BodyBalls { kInside, kCover };
+
+/// A medial PLY has the balls of its points, a body file (.npz) those of `of_body`; any other name is that of a table;
+/// "-": a table on standard input. Errors: kInvalidMesh (the file cannot be read, or has no ball), kOutOfMemory.
+Result<std::vector<Ball>> read_balls(const std::string& path, BodyBalls of_body = BodyBalls::kInside);
 
 }  // namespace medial_vk

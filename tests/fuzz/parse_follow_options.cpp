@@ -27,6 +27,13 @@ void require_usable(const cli::FollowOptions& options) {
   require(follower.renewed == 0 || follower.rule == FollowRule::kTangent, "the published rule renews no ball");
   require(follower.renewed == 0 || options.rig.empty(), "balls of a rig are not exchanged");
   require(follower.threads <= 1024, "--threads keeps its range");
+  require(options.contract == SphereContract::kInside || options.contract == SphereContract::kCover, "--contract");
+  require(options.grown >= 1 && options.grown <= 1000, "--grown keeps its range");
+  require(options.covers() || !options.tighten, "balls inside are not tightened");
+  if (options.covers()) {
+    require(!options.points && !options.from_rest && options.rig.empty(), "covers have no points, no reset, no rig");
+    require(follower.renewed == 0 && follower.rule == FollowRule::kTangent, "covers have no rule");
+  }
   require(!(options.quiet && options.verbose), "-q and -v exclude each other");
   for (const cli::NamedOutput& output : cli::outputs_of(options)) {
     if (output.file->empty()) continue;

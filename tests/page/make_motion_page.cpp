@@ -1,16 +1,19 @@
 // Writes the page of a motion of a solid that balls follow, for the tests of the page and for a look at it.
 //   make_motion_page OUTPUT.html [mesh=FILE] [around=N] [balls=N] [frames=N] [motion=twist|bend|squash|limb|ripple]
-//     [rule=published] [name=NAME] [up=AXIS] [rate=FRAMES_A_SECOND] [steps=N] [every=N] [raw=FILE] [gap] [open]
-// Without a mesh the solid is a torus of 2 N^2 vertices, N = 16 by default. The motion goes out and back. `every=N`:
-// only every Nth frame has a mesh, 0: none; `gap`: with bounds of the gap; `open`: without the last triangle of the
-// mesh; `raw=FILE`: also writes, as doubles, the vertices and then the balls of each frame that has a mesh.
+//     [rule=published|cover] [name=NAME] [up=AXIS] [rate=FRAMES_A_SECOND] [steps=N] [every=N] [raw=FILE] [gap] [open]
+// The balls of the rule `cover` are those inside, enlarged until they cover. Without a mesh the solid is a torus of 2
+// N^2 vertices, N = 16 by default. The motion goes out and back. `every=N`: only every Nth frame has a mesh, 0: none;
+// `gap`: with bounds of the gap; `open`: without the last triangle of the mesh; `raw=FILE`: also writes, as doubles,
+// the vertices and then the balls of each frame that has a mesh.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <map>
+#include <memory>
 #include <numbers>
 #include <random>
 #include <stdexcept>
@@ -20,6 +23,7 @@
 
 #include "base/point_ops.h"
 #include "input/read_mesh.h"
+#include "medial_vk/cover_follower.h"
 #include "medial_vk/prepare.h"
 #include "output/motion_page/motion_page.h"
 #include "output/page/page.h"
@@ -106,23 +110,58 @@ UpAxis axis_of(const std::string& name) {
   throw std::runtime_error("no axis " + name);
 }
 
-FollowedFrame frame_of(const Follower& follower) {
-  FollowedFrame frame;
-  frame.balls.assign(follower.balls().begin(), follower.balls().end());
-  frame.states.assign(follower.states().begin(), follower.states().end());
-  frame.measures = follower.measure().value();
-  return frame;
+/// Balls that move to the vertices of a frame and describe it.
+using Mover = std::function<FollowedFrame(std::span<const Point>)>;
+
+Mover balls_inside(const IndexedMesh& mesh, const Arguments& given, bool published) {
+  FollowerOptions options;
+  options.rule = published ? FollowRule::kPublished : FollowRule::kTangent;
+  options.steps = static_cast<std::uint32_t>(number(given, "steps", 0));
+  const auto follower =
+      std::make_shared<Follower>(Follower::create(mesh, balls_in(mesh, number(given, "balls", 40)), options).value());
+  return [follower](std::span<const Point> vertices) {
+    if (!follower->update(vertices)) throw std::runtime_error("a frame was refused");
+    FollowedFrame frame;
+    frame.balls.assign(follower->balls().begin(), follower->balls().end());
+    frame.states.assign(follower->states().begin(), follower->states().end());
+    frame.measures = follower->measure().value();
+    return frame;
+  };
+}
+
+/// Every third ball counts as grown in every other frame, so that there are both states. How far balls reach out is
+/// bounded by the greatest radius.
+Mover cover_of(const IndexedMesh& mesh, const Arguments& given) {
+  const auto follower =
+      std::make_shared<CoverFollower>(CoverFollower::create(mesh, balls_in(mesh, number(given, "balls", 40))).value());
+  const auto count = std::make_shared<int>(0);
+  return [follower, count](std::span<const Point> vertices) {
+    if (!follower->update(vertices)) throw std::runtime_error("a frame was refused");
+    FollowedFrame frame;
+    frame.balls.assign(follower->balls().begin(), follower->balls().end());
+    CoveredFrame& cover = frame.cover.emplace();
+    cover.proved = follower->state();
+    cover.measures = follower->measure().value();
+    const bool grows = ++*count % 2 == 0;
+    double greatest = 0;
+    for (std::size_t i = 0; i < frame.balls.size(); ++i) {
+      greatest = std::max(greatest, frame.balls[i].radius);
+      cover.states.push_back(frame.balls[i].radius == 0 ? CoverBallState::kUnused
+                             : grows && i % 3 == 0      ? CoverBallState::kGrown
+                                                        : CoverBallState::kSteady);
+    }
+    cover.reach_out_bound = greatest;
+    return frame;
+  };
 }
 
 MotionRecord follow(const IndexedMesh& mesh, const Arguments& given) {
   const std::string rule = text(given, "rule", "tangent");
-  FollowerOptions options;
-  options.rule = rule == "published" ? FollowRule::kPublished : FollowRule::kTangent;
-  options.steps = static_cast<std::uint32_t>(number(given, "steps", 0));
-  Follower follower = Follower::create(mesh, balls_in(mesh, number(given, "balls", 40)), options).value();
+  MotionRecord record;
+  record.covers = rule == "cover";
+  const Mover move = record.covers ? cover_of(mesh, given) : balls_inside(mesh, given, rule == "published");
 
   const MeshView view = mesh.view();
-  MotionRecord record;
   record.version = "of the tests";
   record.name = text(given, "name", "torus");
   record.rule = rule;
@@ -135,8 +174,7 @@ MotionRecord follow(const IndexedMesh& mesh, const Arguments& given) {
   for (std::size_t i = 0; i < frames; ++i) {
     const double turn = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(frames);
     const std::vector<Point> vertices = test::moved_vertices(rest, motion, 0.5 - 0.5 * std::cos(turn));
-    if (!follower.update(vertices)) throw std::runtime_error("a frame was refused");
-    FollowedFrame frame = frame_of(follower);
+    FollowedFrame frame = move(vertices);
     frame.name = i == 0 ? "rest" : "frame " + std::to_string(i);
     frame.time = static_cast<double>(i) / std::max(record.frames_per_second, 1.0);
     if (given.contains("gap")) frame.gap = gap_of(vertices, view.triangles, frame.balls);

@@ -1,41 +1,8 @@
 // The properties of the page of a motion, each as a test: run.mjs runs one of them, as motion_NAME.
 import assert from 'node:assert/strict';
 
+import {assertNumbers, frameOf, isPlaying, moveSlider, numbersShown, openMotion, tableRows} from './motion_steps.mjs';
 import {assertQuiet, checked, evaluateInPage, focus, grouped, look, numbersIn, selectOption} from './steps.mjs';
-
-/** Makes a page and opens it; the result has the page, and the numbers in its file. */
-async function openMotion({workshop, browser}, options = [], size = {}) {
-  workshop.run('page.html', 'frames=12', 'balls=30', ...options);
-  const text = workshop.read('page.html').toString();
-  const motion = JSON.parse(text.match(/id="motion">(.*?)<\/script>/s)[1]);
-  const page = await browser.open(size);
-  await page.load(workshop.url('page.html'));
-  return {page, motion};
-}
-
-const frameOf = (page) => page.evaluate('medialVk.player.frame');
-const isPlaying = (page) => page.evaluate('medialVk.player.playing');
-
-/** The numbers of the present frame, by name. */
-const numbersShown = (page) => page.evaluate(`Object.fromEntries([...document.querySelectorAll('#numbers dt')].map((dt) =>
-  [dt.textContent, dt.nextSibling.textContent]))`);
-
-const moveSlider = (page, value) => page.evaluate(`{ const e = document.getElementById('time'); e.value = ${value};
-  e.dispatchEvent(new Event('input', {bubbles: true})); }`);
-
-/** Asserts that the panel shows the numbers of the file. */
-async function assertNumbers(page, motion, number) {
-  const shown = await numbersShown(page), frame = motion.frames[number];
-  assert.equal(shown.frame, String(number));
-  assert.equal(shown.name, frame.name);
-  assert.ok(Math.abs(numbersIn(shown.time)[0] - frame.time) <= 5e-4, shown.time);
-  assert.ok(Math.abs(numbersIn(shown.uncovered)[0] - frame.uncovered) <= 1e-4 * frame.uncovered, shown.uncovered);
-  for (const state of ['medial', 'flat', 'shrunk', 'lost']) assert.equal(shown[state], String(frame[state]), state);
-  return shown;
-}
-
-const tableRows = (page) => page.evaluate(`[...document.querySelectorAll('#frames-body tbody tr')].map((row) =>
-  [...row.cells].map((cell) => cell.textContent))`);
 
 export const motionTests = {
   async numbers_and_slider(context) {
@@ -44,6 +11,8 @@ export const motionTests = {
     assert.equal(await page.evaluate('document.title'), 'ring.obj - balls in motion');
     assert.match(await page.text('facts'), /^30 balls, 1,024 triangles, 12 frames$/);
     assert.match(await page.text('proof'), /proved to lie inside the mesh of its frame; nothing between two frames/);
+    assert.equal(await page.text('curve-name'), 'uncovered');
+    assert.ok(!await page.evaluate("document.getElementById('ball-opacity').checkVisibility()"));
     await assertNumbers(page, motion, 0);
     for (const number of [7, 11, 3]) {
       await moveSlider(page, number);

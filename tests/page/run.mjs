@@ -4,12 +4,13 @@
 // The exit code is 77 if there is no Chromium, or if the tool was built without its page.
 import {Browser, findChromium} from './browser.mjs';
 import {Workshop} from './fixtures.mjs';
+import {motionCoverTests} from './motion_cover_tests.mjs';
 import {motionTests} from './motion_tests.mjs';
 import {tests as pageTests} from './tests.mjs';
 import {viewTests} from './view_tests.mjs';
 
 const tests = {...pageTests, ...viewTests};
-for (const [name, test] of Object.entries(motionTests)) tests[`motion_${name}`] = test;
+for (const [name, test] of Object.entries({...motionTests, ...motionCoverTests})) tests[`motion_${name}`] = test;
 
 function skip(why) {
   console.log(`SKIPPED: ${why}`);

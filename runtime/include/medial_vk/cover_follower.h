@@ -69,7 +69,7 @@ class CoverFollower {
   Status reset();
   /// Divides the boundary of the present frame among the balls anew, so that they become smaller, and lets later frames
   /// be computed from it instead of from the rest pose. The volume of the union does not grow. Takes the time of some
-  /// ten frames. Error: kOutOfMemory (nothing has changed).
+  /// twenty frames. Error: kOutOfMemory (nothing has changed).
   Status tighten();
 
   /// The balls of the present frame, in the order in which they were given; those that are not needed have the radius

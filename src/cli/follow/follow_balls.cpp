@@ -17,7 +17,7 @@ namespace {
 Result<std::vector<Ball>> read(const FollowOptions& options) {
   const EndAtOnce guard;
   if (interrupted()) return stopped();
-  return read_balls(options.balls);
+  return read_balls(options.balls, options.covers() ? BodyBalls::kCover : BodyBalls::kInside);
 }
 
 Extractor extractor_of(SharedOfRun& shared) {
@@ -27,6 +27,7 @@ Extractor extractor_of(SharedOfRun& shared) {
 Result<std::vector<Ball>> fit(const FollowOptions& options, const IndexedMesh& mesh, SharedOfRun& shared,
                               const StageProgress& progress, const std::stop_token& stop) {
   SphereFitOptions fit_options;
+  fit_options.contract = options.contract;
   fit_options.count = options.count;
   fit_options.resolution = options.resolution;
   fit_options.balls_only = true;

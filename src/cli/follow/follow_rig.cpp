@@ -6,28 +6,21 @@
 #include <filesystem>
 #include <utility>
 
+#include "cli/follow/frame_depths.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/messages.h"
 #include "common/file_extension.h"
-#include "medial_vk/sphere_proofs.h"
 #include "output/rig_files/rig_gltf.h"
 
 namespace medial_vk::cli {
 namespace {
 
-/// Limits the radii in a frame. A mirrored frame has a mesh of its own, turned inside out.
+/// Limits the radii in a frame.
 Status prove_frame(const RiggedFrame& frame, const std::vector<Point>& vertices, unsigned threads, IndexedMesh& mesh,
                    BallRig& balls) {
   const std::vector<Point> centres = posed_centres(balls, frame.joints);
   std::vector<double> depths(centres.size());
-  if (is_mirrored(mesh.prepared(), vertices)) {
-    const Result<IndexedMesh> turned = IndexedMesh::build(moved(mesh.prepared(), vertices), {.threads = threads});
-    if (!turned) return turned.error();
-    if (Status status = measure_depths(turned.value(), centres, depths, {threads}); !status) return status;
-  } else {
-    if (Status status = mesh.move_vertices(vertices, {.flags = {}, .threads = threads}); !status) return status;
-    if (Status status = measure_depths(mesh, centres, depths, {threads}); !status) return status;
-  }
+  if (Status status = depths_in_frame(vertices, centres, threads, mesh, depths); !status) return status;
   limit_radii(depths, balls);
   return {};
 }

@@ -27,20 +27,30 @@ std::string renewed_text(const FollowOptions& options, const MotionRecord& recor
 }
 
 std::string rule_text(const FollowOptions& options) {
+  const char* const steps = options.follower.steps == 1 ? "step" : "steps";
+  if (options.covers()) {
+    return fmt::format("cover: a ball moves with its part of the surface; {} {} towards less volume{}",
+                       options.follower.steps, steps, options.tighten ? "; divided anew in each frame" : "");
+  }
   std::string text = options.follower.rule == FollowRule::kPublished
                          ? "published: one contact, balls may reach out"
                          : fmt::format("tangent: two contacts, inside in every frame; {} {} towards more volume",
-                                       options.follower.steps, options.follower.steps == 1 ? "step" : "steps");
+                                       options.follower.steps, steps);
   return options.from_rest ? text + "; each frame from rest" : text;
 }
 
+/// Uncovered or added, of which the record has one.
+double error_percent(const FollowedFrame& frame) {
+  return frame.cover ? frame.cover->added_percent() : frame.uncovered_percent();
+}
+
 /// At rest, on average and at most, as per cent of the solid; frames without a volume are left out.
-std::string uncovered_text(const MotionRecord& record) {
+std::string error_text(const MotionRecord& record) {
   double sum = 0, most = 0;
   std::size_t count = 0;
   const FollowedFrame* worst = nullptr;
   for (const FollowedFrame& frame : record.frames) {
-    const double percent = frame.uncovered_percent();
+    const double percent = error_percent(frame);
     if (!std::isfinite(percent)) continue;
     ++count;
     sum += percent;
@@ -51,20 +61,44 @@ std::string uncovered_text(const MotionRecord& record) {
   if (worst == nullptr) return "no frame has a volume";
   std::string text = fmt::format("{:.2f} % of the solid on average, {:.2f} % at most ({})",
                                  sum / static_cast<double>(count), most, medial_vk::quoted(worst->name));
-  const double rest = record.frames.front().uncovered_percent();
+  const double rest = error_percent(record.frames.front());
   if (std::isfinite(rest)) text = fmt::format("{:.2f} % at rest, {}", rest, text);
   const std::size_t without = record.frames.size() - count;
   if (without == 0) return text;
   return fmt::format("{}; {}", text, counted(without, "frame has no volume", "frames have no volume"));
 }
 
-std::string states_text(const FollowedFrame& frame) {
+std::string states_text(const MotionRecord& record) {
   std::string text;
-  for (const FollowState state : {FollowState::kMedial, FollowState::kFlat, FollowState::kShrunk, FollowState::kLost}) {
-    const auto count = std::ranges::count(frame.states, state);
-    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(count), name_of(state));
+  const std::vector<std::size_t> counts = state_counts(record, record.frames.back());
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (counts[i] == 0) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(counts[i]), state_names(record)[i]);
   }
   return text + " in the last frame";
+}
+
+std::string proved_text(const MotionRecord& record, bool closed) {
+  if (!closed) return "the balls cover the surface, which is not closed, in every frame";
+  const auto solids = std::ranges::count_if(
+      record.frames, [](const FollowedFrame& frame) { return frame.cover->proved == CoverState::kSolid; });
+  if (solids == std::ssize(record.frames)) return "the balls cover the solid in every frame";
+  return fmt::format("the balls cover the surface in every frame, and the solid in {} of {}", grouped(solids),
+                     grouped(record.frames.size()));
+}
+
+/// In the worst frame; empty where it was not measured.
+std::string reach_text(const MotionRecord& record) {
+  double worst = -1;
+  for (const FollowedFrame& frame : record.frames) worst = std::max(worst, frame.cover->reach_out_bound.value_or(-1));
+  return worst < 0 ? std::string() : fmt::format("by at most {:.3g} in any frame", worst);
+}
+
+std::string cover_lines(const MotionRecord& record, bool closed) {
+  std::string text = labelled("proved", proved_text(record, closed));
+  if (record.has_volume) text += labelled("added", error_text(record));
+  if (const std::string reach = reach_text(record); !reach.empty()) text += labelled("reach out", reach);
+  return text;
 }
 
 /// An upper bound of the balls' volume outside, over that of the solid, in the worst frame.
@@ -115,17 +149,21 @@ std::string follow_opening(const FollowOptions& options, const MeshReport& repor
   return text;
 }
 
-std::string follow_summary(const FollowOptions& options, const MotionRecord& record, const BallRig& rig,
+std::string follow_summary(const FollowOptions& options, const MotionRecord& record, bool closed, const BallRig& rig,
                            const PartedVertices& parted, double update_seconds, const std::vector<StageTime>& times,
                            std::span<const OutputFile> files) {
   std::string text = labelled("balls", grouped(record.frames.front().balls.size()));
   text += labelled("rule", rule_text(options));
-  if (record.has_volume) text += labelled("uncovered", uncovered_text(record));
+  if (record.covers) {
+    text += cover_lines(record, closed);
+  } else if (record.has_volume) {
+    text += labelled("uncovered", error_text(record));
+  }
   if (options.follower.rule == FollowRule::kPublished && record.has_volume) {
     text += labelled("outside", outside_text(record));
   }
   if (record.renews) text += labelled("anew", renewed_text(options, record));
-  text += labelled("states", states_text(record.frames.back()));
+  text += labelled("states", states_text(record));
   if (!rig.balls.empty()) text += labelled("rig", rig_text(rig));
   const auto lost = std::ranges::count(record.frames.front().states, FollowState::kLost);
   if (lost > 0) {

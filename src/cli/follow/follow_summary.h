@@ -19,8 +19,9 @@ namespace medial_vk::cli {
 std::string follow_opening(const FollowOptions& options, const MeshReport& report, std::uint64_t frames,
                            std::uint64_t separable);
 
-/// After it. `rig` has no balls unless one was made; `update_seconds` is the time of Follower::update() in all frames.
-std::string follow_summary(const FollowOptions& options, const MotionRecord& record, const BallRig& rig,
+/// After it. `closed`: the mesh; `rig` has no balls unless one was made; `update_seconds` is the time in which balls
+/// were moved, in all frames.
+std::string follow_summary(const FollowOptions& options, const MotionRecord& record, bool closed, const BallRig& rig,
                            const PartedVertices& parted, double update_seconds, const std::vector<StageTime>& times,
                            std::span<const OutputFile> files);
 

@@ -13,6 +13,7 @@
 #include "cli/follow/follow_balls.h"
 #include "cli/follow/follow_rig.h"
 #include "cli/follow/follow_summary.h"
+#include "cli/follow/moving_balls.h"
 #include "cli/help/help_texts.h"
 #include "cli/options/follow_options.h"
 #include "cli/shared/load.h"
@@ -22,7 +23,6 @@
 #include "cli/terminal/messages.h"
 #include "cli/terminal/tables.h"
 #include "common/file_extension.h"
-#include "medial_vk/sphere_proofs.h"
 #include "medial_vk/version.h"
 #include "motion_files/mesh_motion.h"
 #include "output/atomic_files/atomic_file.h"
@@ -31,7 +31,6 @@
 #include "output/page/page.h"
 #include "output/picture/motion_picture.h"
 #include "output/picture/panels/image.h"
-#include "reference_bridge/check_balls.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -68,7 +67,8 @@ class FollowRun {
     if (interrupted()) return stopped();
     if (Status status = write_files(files_); !status) return status;
     if (!options_.quiet) {
-      print_message(follow_summary(options_, record_, rig_, map_->parted(), update_seconds_, shared_.times, files_));
+      print_message(follow_summary(options_, record_, mesh_->prepared().report.closed, rig_, map_->parted(),
+                                   update_seconds_, shared_.times, files_));
     }
     return report_check();
   }
@@ -139,30 +139,23 @@ class FollowRun {
     if (interrupted()) return stopped();
     shared_.progress.update("rest", 0);
     Stopwatch stopwatch;
-    Result<Follower> follower = Follower::create(*mesh_, balls.value(), options_.follower);
+    Result<std::unique_ptr<MovingBalls>> follower = options_.covers()
+                                                        ? balls_that_stay_a_cover(options_, *mesh_, balls.value())
+                                                        : balls_that_stay_inside(options_, *mesh_, balls.value());
     shared_.progress.clear();
-    if (!follower) return in_words_of_files(follower.error());
-    follower_.emplace(std::move(follower).value());
-    const auto is_lost = [](FollowState state) { return state == FollowState::kLost; };
-    if (std::ranges::all_of(follower_->states(), is_lost)) {
-      return Error{ErrorCode::kInvalidMesh,
-                   fmt::format("{}: no ball is known to be inside the open mesh at rest", options_.rest)};
-    }
+    if (!follower) return follower.error();
+    follower_ = std::move(follower).value();
     shared_.times.push_back({"rest", stopwatch.lap()});
     return {};
-  }
-
-  /// A ball of a file is named with it.
-  Error in_words_of_files(const Error& error) const {
-    if (options_.balls.empty() || error.code != ErrorCode::kUsage) return error;
-    return {error.code, fmt::format("--balls {}: {} (balls count from 0, and faces inside the solid bound it, too)",
-                                    options_.balls, error.message)};
   }
 
   Status follow() {
     record_.version = version();
     record_.name = options_.rest == "-" ? "stdin" : std::filesystem::path(options_.rest).filename().string();
-    record_.rule = options_.follower.rule == FollowRule::kPublished ? "published" : "tangent";
+    record_.covers = options_.covers();
+    record_.rule = record_.covers                                     ? "cover"
+                   : options_.follower.rule == FollowRule::kPublished ? "published"
+                                                                      : "tangent";
     record_.frames_per_second = options_.frames_per_second;
     record_.has_volume = encloses_volume(mesh_->prepared().report);
     record_.renews = options_.follower.renewed > 0;
@@ -189,9 +182,6 @@ class FollowRun {
     }
     if (Status status = check_size(frame_.positions, frame_.name); !status) return status;
     map_->map(frame_.positions, vertices_);
-    if (options_.from_rest) {
-      if (Status status = follower_->reset(); !status) return status;
-    }
     Stopwatch stopwatch;
     if (Status status = follower_->update(vertices_); !status) {
       return Error{status.error().code, frame_.name + ": " + status.error().message};
@@ -210,14 +200,9 @@ class FollowRun {
     FollowedFrame frame;
     frame.name = name;
     frame.time = time;
-    frame.balls.assign(follower_->balls().begin(), follower_->balls().end());
-    frame.states.assign(follower_->states().begin(), follower_->states().end());
-    const Result<FollowMeasures> measures = follower_->measure();
-    if (!measures) return measures.error();
-    frame.measures = measures.value();
-    if (record_.renews) frame.origins.assign(follower_->origins().begin(), follower_->origins().end());
+    if (Status status = follower_->describe(frame); !status) return status;
     if (writes_table(options_)) {
-      if (Status status = measure_the_gap(vertices, frame); !status) return status;
+      if (Status status = follower_->measure_distances(vertices, *mesh_, frame); !status) return status;
     }
     if (options_.check) check(vertices, frame);
     if (keeps_vertices && (!options_.html.empty() || !options_.picture.empty())) {
@@ -229,21 +214,12 @@ class FollowRun {
     return {};
   }
 
-  Status measure_the_gap(const std::vector<Point>& vertices, FollowedFrame& frame) {
-    if (std::ranges::none_of(frame.balls, [](const Ball& ball) { return ball.radius > 0; })) return {};
-    if (Status status = mesh_->move_vertices(vertices, {.flags = {}, .threads = threads()}); !status) return status;
-    const Result<Bounds> gap = measure_gap(*mesh_, frame.balls, {threads()});
-    if (!gap) return gap.error();
-    frame.gap = gap.value();
-    return {};
-  }
-
   /// By the reference, which cannot be stopped half-way; nothing is lost if the process ends.
   void check(const std::vector<Point>& vertices, const FollowedFrame& frame) {
     const EndAtOnce while_checked;
     std::vector<Ball> present;
     std::ranges::copy_if(frame.balls, std::back_inserter(present), [](const Ball& ball) { return ball.radius > 0; });
-    const CheckReport report = check_balls_inside(moved(mesh_->prepared(), vertices), present);
+    const CheckReport report = follower_->check(moved(mesh_->prepared(), vertices), present);
     if (check_.lines.empty()) {
       check_.lines = report.lines;
       return;
@@ -318,7 +294,7 @@ class FollowRun {
   std::unique_ptr<MeshMotion> motion_;
   std::optional<VertexMap> map_;
   std::optional<IndexedMesh> mesh_;
-  std::optional<Follower> follower_;
+  std::unique_ptr<MovingBalls> follower_;
   MotionFrame frame_;            // the last that was read
   std::vector<Point> vertices_;  // of the prepared mesh in that frame
   MotionRecord record_;

@@ -5,9 +5,10 @@ namespace medial_vk::cli {
 
 // long: a single text.
 std::string follow_help_text() {
-  return R"(medial-vk follow moves balls inside a solid with its deforming surface. In every
-frame each ball is proved to be inside (by --rule tangent, the default), and the
-volume of the solid in no ball is measured.
+  return R"(medial-vk follow moves balls inside a solid, or balls that cover it, with its
+deforming surface. In every frame each ball is proved to be inside (by --rule
+tangent, the default), or all balls together are proved to cover the solid, and
+the volume between solid and balls is measured.
 
 Usage:
   medial-vk follow [options] REST FRAME...   meshes with the same triangles, or
@@ -23,6 +24,7 @@ Examples:
   medial-vk follow dancer.glb --html dancer.html --picture dancer.png
   medial-vk spheres part.obj --count 64          makes part.spheres.csv
   medial-vk follow part.obj bent.obj --balls part.spheres.csv --check
+  medial-vk follow part.obj bent.obj --contract cover --count 32 -o cover.npz
 
 The motion:
       --animation NAME  of a scene with several: the name, or the number from 1
@@ -30,22 +32,28 @@ The motion:
                         (default 30)
 
 The balls:
-      --count N         fit so many balls inside the mesh at rest (default 500)
+      --contract NAME   inside (default): no ball reaches out of the solid;
+                        cover: no point of the solid is left out
+      --count N         fit so many balls to the mesh at rest (default 500, of a
+                        cover 100, as covers take longer)
       --points          all medial points at --resolution N instead
       --balls FILE      balls in a file: a table (CSV) with the columns x, y, z
                         and radius, a medial PLY, or a body file (.npz); "-": a
-                        table on standard input
+                        table on standard input. They must be inside, or cover
+                        the mesh at rest
       --resolution N    voxels along the longest side, for balls to choose from
                         (default: by the number of balls)
       --backend NAME    vulkan or cpu (the reference, slow) finds them
       --device NAME     index or part of the name of the Vulkan device
 
-How they follow:
+How both follow:
+      --steps N         steps of each frame, towards more volume of balls inside
+                        (--rule tangent), less of a cover (default 1)
+
+How balls inside follow:
       --rule NAME       tangent (default): a ball keeps two contacts, and is as
                         large as it can be inside; published: one contact, as
                         in the source, and balls that may reach out a little
-      --steps N         steps of each frame towards more volume, for tangent
-                        (default 1)
       --from-rest       compute each frame from rest, not from the frame before
       --renew N         choose up to N balls of a frame anew, at gaps, where the
                         uncovered share of the volume has grown (default 0)
@@ -57,13 +65,21 @@ How they follow:
       --object-angle A  a ball whose contacts are nearer to each other, in
                         radians, counts as flat: no longer medial (default 0.5)
 
+How a cover follows:
+      --tighten         divide the surface of each frame among the balls anew,
+                        so that they become smaller; takes some twenty times
+                        as long
+      --grown G         a ball above G times its radius at rest counts as grown
+                        (default 1.25)
+
 Output:
   -o, --output FILE     may be given several times (default: REST.follow.npz)
                         .npz: the balls of all frames, frames x balls x 4
                         .glb: balls as an animation
                         .csv: a line per frame: volumes, the greatest distance
-                        from the surface to the balls, and the number of balls
-                        in each state; "-": that table on standard output
+                        from the surface to the balls (cover: from the balls to
+                        the solid), and the number of balls in each state; "-":
+                        that table on standard output
       --picture FILE    a .png with up to twelve frames side by side
       --html FILE       a page that plays the motion
       --rig FILE        the balls bound to the joints of the animation
@@ -77,7 +93,8 @@ Output:
                         iso or x,y,z, the direction towards the viewer
       --up AXIS         of picture and page: x, y, z, -x, -y or -z (default y)
       --check           also test every ball of every frame by the independent
-                        CPU reference; exit code 7 if one reaches out
+                        CPU reference; exit code 7 if one reaches out, or if a
+                        cover leaves a point out
       --threads N       CPU threads, 0 for all (default 0)
 
 Other:
@@ -86,9 +103,10 @@ Other:
                         step
   -h, --help            print this and exit
 
-The first frame that is written is the rest pose. A ball that finds no place in
-a frame is lost there, with radius 0, and may return. Faces inside the solid
-count as a part of its boundary. Files appear whole or not at all.
+The first frame that is written is the rest pose. A ball inside that finds no
+place in a frame is lost there, with radius 0, and may return; faces inside the
+solid bound it, too. A cover holds every point whose winding number is not 0; of
+a mesh that is not closed, the surface. Files appear whole or not at all.
 
 Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 mesh or frame unreadable
 or invalid, 4 no Vulkan device, 5 out of memory, 6 cannot write, 7 --check

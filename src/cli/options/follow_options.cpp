@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <numbers>
 #include <string>
@@ -21,7 +22,7 @@ constexpr std::uint64_t kMostRenewed = 10'000;
 /// Arguments whose value does not tell whether they were given.
 struct GivenToFollow {
   std::size_t count = 0;
-  double protrusion = 0, frames_per_second = 0, renewal_factor = 0;
+  double protrusion = 0, frames_per_second = 0, renewal_factor = 0, grown = 0;
   ViewChoice view;
 };
 
@@ -32,6 +33,8 @@ void declare_follow(CLI::App& app, FollowOptions& options, GivenToFollow& given)
   add.text("--animation", "name or number", options.animation);
   add.real("--fps", {0.001, 1000, true}, " frames a second", given.frames_per_second);
   add.text("--balls", "file", options.balls);
+  add.choice<SphereContract>("--contract", {{"inside", SphereContract::kInside}, {"cover", SphereContract::kCover}},
+                             options.contract);
   add.whole("--count", 1, kMostFollowers, " balls", given.count);
   add.flag("--points", options.points);
   add.whole("--resolution", 1, 4096, " voxels", options.resolution);
@@ -44,6 +47,8 @@ void declare_follow(CLI::App& app, FollowOptions& options, GivenToFollow& given)
   add.real("--protrusion", {0, 1, false}, " of the longest side", given.protrusion);
   add.real("--shrunk", {0, 1, true}, " of the radius", options.follower.shrunk);
   add.real("--object-angle", {0, std::numbers::pi / 2, true}, " radians", options.follower.object_angle);
+  add.flag("--tighten", options.tighten);
+  add.real("--grown", {1, 1000, true}, " times the radius", given.grown);
   app.add_option("-o,--output", options.outputs)->type_name("file")->allow_extra_args(false);
   add.text("--picture", "file", options.picture);
   add.text("--html", "file", options.html);
@@ -78,6 +83,25 @@ Status check_follow_inputs(const FollowOptions& options, const GivenToFollow& gi
   if (options.points && options.resolution == 0) return usage_error("--points: give --resolution N, too");
   if (options.backend == Backend::kCpu && !options.device.empty()) {
     return usage_error("--device chooses a Vulkan device; it cannot be used with --backend cpu");
+  }
+  return {};
+}
+
+/// Options that are about balls of one contract alone.
+Status check_contract(const CLI::App& app, const FollowOptions& options) {
+  constexpr std::array kOfBallsInside = {"--points",       "--rule",       "--from-rest",    "--renew", "--shrunk",
+                                         "--renew-factor", "--protrusion", "--object-angle", "--rig"};
+  constexpr std::array kOfCovers = {"--tighten", "--grown"};
+  if (options.covers()) {
+    for (const char* const name : kOfBallsInside) {
+      if (app.count(name) == 0) continue;
+      return usage_error(fmt::format("{} is about balls inside; it cannot be used with --contract cover", name));
+    }
+    return {};
+  }
+  for (const char* const name : kOfCovers) {
+    if (app.count(name) == 0) continue;
+    return usage_error(fmt::format("{} is about balls that cover; use it with --contract cover", name));
   }
   return {};
 }
@@ -179,10 +203,12 @@ Result<FollowOptions> FollowOptionParser::parse(const std::vector<std::string>& 
   }
   if (options.help) return options;
   const bool has_steps = declared_->app.count("--steps") > 0;
+  if (Status status = check_contract(declared_->app, options); !status) return status.error();
   if (Status status = check_follow_inputs(options, given); !status) return status.error();
   if (Status status = check_rule(options, given, has_steps); !status) return status.error();
   if (!has_steps && options.follower.rule == FollowRule::kTangent) options.follower.steps = kUsualFollowSteps;
-  if (given.count > 0) options.count = given.count;
+  options.count = given.count > 0 ? given.count : options.covers() ? kUsualCoverCount : kUsualFollowers;
+  if (given.grown > 0) options.grown = given.grown;
   if (given.protrusion > 0) options.follower.protrusion = given.protrusion;
   if (given.renewal_factor > 0) options.follower.renewal_factor = given.renewal_factor;
   if (given.frames_per_second > 0) options.frames_per_second = given.frames_per_second;

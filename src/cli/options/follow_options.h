@@ -13,12 +13,16 @@
 #include "common/backend.h"
 #include "medial_vk/follower.h"
 #include "medial_vk/result.h"
+#include "medial_vk/sphere_fits.h"
 #include "output/picture/panels/options.h"
 
 namespace medial_vk::cli {
 
-/// Steps towards more volume in each frame, unless the command line has another number.
+/// Steps of each frame, towards more volume of balls inside or less of a cover, unless the command line has another
+/// number.
 constexpr std::uint32_t kUsualFollowSteps = 1;
+/// Balls to fit, unless the command line has another number. A cover of many takes minutes.
+constexpr std::size_t kUsualFollowers = 500, kUsualCoverCount = 100;
 
 struct FollowOptions {
   bool help = false;
@@ -27,15 +31,18 @@ struct FollowOptions {
   std::string animation;            ///< Its name, or its number from 1; empty: the only one.
   double frames_per_second = 30;
 
-  std::string balls;             ///< A file with the balls; empty: they are fitted.
-  std::size_t count = 500;       ///< Of balls to fit.
-  bool points = false;           ///< All medial points instead.
-  std::uint32_t resolution = 0;  ///< Voxels along the longest side; 0: by the number of balls.
+  std::string balls;                                  ///< A file with the balls; empty: they are fitted.
+  SphereContract contract = SphereContract::kInside;  ///< Or kCover.
+  std::size_t count = kUsualFollowers;                ///< Of balls to fit.
+  bool points = false;                                ///< All medial points instead.
+  std::uint32_t resolution = 0;                       ///< Voxels along the longest side; 0: by the number of balls.
   Backend backend = Backend::kVulkan;
   std::string device;
 
-  FollowerOptions follower;  ///< `threads` is the number for the whole run.
+  FollowerOptions follower;  ///< `threads` is the number for the whole run, and `steps` that of covers, too.
   bool from_rest = false;    ///< Each frame is computed from the rest pose alone.
+  bool tighten = false;      ///< A cover is divided anew in each frame.
+  double grown = 1.25;       ///< A ball of a cover beyond so many times its radius at rest counts as grown.
 
   std::vector<std::string> outputs;  ///< .npz, .glb or .csv; never empty after parsing; "-": standard output, CSV.
   std::string picture, html, rig;    ///< Empty: none; "-": standard output.
@@ -44,6 +51,8 @@ struct FollowOptions {
   bool check = false;
   bool quiet = false;
   bool verbose = false;
+
+  bool covers() const { return contract == SphereContract::kCover; }
 
   bool operator==(const FollowOptions&) const = default;
 };
@@ -75,7 +84,7 @@ std::vector<std::string> inputs_of(const FollowOptions& options);
 /// Whether `--rig` writes a scene with balls as nodes, and not a table.
 bool rig_has_nodes(const FollowOptions& options);
 
-/// Whether a file with a line per frame is written, for which the gap of each frame is measured.
+/// Whether a file with a line per frame is written, for which the distances between surface and balls are measured.
 bool writes_table(const FollowOptions& options);
 
 }  // namespace medial_vk::cli

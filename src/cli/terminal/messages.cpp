@@ -37,7 +37,7 @@ constexpr ParameterWords kParameterWords[] = {
     {"contract", {}, "--contract", "--contract"},
     {"count", {}, "--count", kRobotCount, {}, {}, {}, "--count"},
     {"count_per_link", {}, {}, "--count-per-link", {}, {}, "--balls"},
-    library_only("cover"),
+    of_follow("cover", "the file"),
     {"crease", "--sheet-crease", {}, {}},
     same("deep_angle", "the deep angle"),
     library_only("depths"),

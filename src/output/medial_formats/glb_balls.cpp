@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "output/medial_formats/ball_colours.h"
 
@@ -10,6 +11,12 @@ namespace medial_vk {
 float shortened(double x) {
   const auto rounded = static_cast<float>(x);
   return std::abs(static_cast<double>(rounded)) > std::abs(x) ? std::nextafter(rounded, 0.0f) : rounded;
+}
+
+float lengthened(double x) {
+  const double rounded = rounded_to_float(x);
+  const auto narrow = static_cast<float>(rounded);
+  return rounded < x ? std::nextafter(narrow, std::numeric_limits<float>::infinity()) : narrow;
 }
 
 void CentreBox::add(const Point& centre) {
@@ -44,6 +51,22 @@ GlbBall glb_ball(const Ball& of, const Point& middle) {
   }
   const double radius = of.radius - moved * (1 + 0x1p-50) - 0x1p-51 * largest;
   ball.radius = shortened(std::max(0.0, radius));
+  return ball;
+}
+
+// As above, with the same bounds added; 2^-49 of the sum is more than its own rounding.
+GlbBall glb_ball_around(const Ball& of, const Point& middle) {
+  GlbBall ball;
+  double moved = 0;
+  double largest = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double from_middle = of.centre[axis] - middle[axis];
+    const double rounded = rounded_to_float(from_middle);
+    ball.centre[axis] = static_cast<float>(rounded);
+    moved = std::hypot(moved, from_middle - rounded);
+    largest = std::max(largest, std::abs(from_middle));
+  }
+  if (of.radius > 0) ball.radius = lengthened((of.radius + moved + 0x1p-51 * largest) * (1 + 0x1p-49));
   return ball;
 }
 

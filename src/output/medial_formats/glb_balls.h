@@ -13,6 +13,8 @@ namespace medial_vk {
 
 /// Rounds to a float towards 0.
 float shortened(double x);
+/// Rounds a positive number up to a float.
+float lengthened(double x);
 
 /// The box around centres.
 class CentreBox {
@@ -33,6 +35,9 @@ struct GlbBall {
 };
 
 GlbBall glb_ball(const Ball& of, const Point& middle);
+
+/// The same ball around the given one, of a cover; of radius 0 if that has radius 0.
+GlbBall glb_ball_around(const Ball& of, const Point& middle);
 
 /// Colours are quantised to these steps, so that few materials suffice.
 inline constexpr std::uint32_t kColourSteps = 32;

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "output/motion_files/motion_files.h"
@@ -22,28 +20,35 @@ std::string csv_value(const std::string& text) {
 
 std::string number_or_nothing(double value) { return std::isfinite(value) ? fmt::format("{}", value) : std::string(); }
 
-std::string volumes(const MotionRecord& record, const FollowedFrame& frame) {
+std::string inside_numbers(const MotionRecord& record, const FollowedFrame& frame) {
   const FollowMeasures& m = frame.measures;
-  if (!record.has_volume) return fmt::format(",{},,{}", m.ball_volume, m.outside_bound);
-  return fmt::format("{},{},{},{}", m.solid_volume, m.ball_volume, number_or_nothing(frame.uncovered_percent()),
-                     m.outside_bound);
+  const std::string gap = frame.gap ? fmt::format("{},{}", frame.gap->lower, frame.gap->upper) : ",";
+  if (!record.has_volume) return fmt::format(",{},,{},{}", m.ball_volume, m.outside_bound, gap);
+  return fmt::format("{},{},{},{},{}", m.solid_volume, m.ball_volume, number_or_nothing(frame.uncovered_percent()),
+                     m.outside_bound, gap);
+}
+
+std::string cover_numbers(const MotionRecord& record, const CoveredFrame& cover) {
+  const CoverFollowMeasures& m = cover.measures;
+  const std::string reach = cover.reach_out_bound ? fmt::format("{}", *cover.reach_out_bound) : std::string();
+  const char* const proved = cover.proved == CoverState::kSolid ? "solid" : "surface";
+  if (!record.has_volume) return fmt::format(",{},,{},{}", m.ball_volume, reach, proved);
+  return fmt::format("{},{},{},{},{}", m.solid_volume, m.ball_volume, number_or_nothing(cover.added_percent()), reach,
+                     proved);
 }
 
 }  // namespace
 
 std::string encode_motion_csv(const MotionRecord& record) {
-  std::string csv =
-      "frame,name,time,solid_volume,ball_volume,uncovered_percent,outside_bound,gap_lower,gap_upper,medial,flat,shrunk,"
-      "lost";
+  std::string csv = "frame,name,time,solid_volume,ball_volume,";
+  csv += record.covers ? "added_percent,reach_out_bound,proved" : "uncovered_percent,outside_bound,gap_lower,gap_upper";
+  for (const char* const state : state_names(record)) csv += fmt::format(",{}", state);
   csv += record.renews ? ",renewed\n" : "\n";
   for (std::size_t i = 0; i < record.frames.size(); ++i) {
     const FollowedFrame& frame = record.frames[i];
-    csv += fmt::format("{},{},{},{}", i, csv_value(frame.name), frame.time, volumes(record, frame));
-    csv += frame.gap ? fmt::format(",{},{}", frame.gap->lower, frame.gap->upper) : ",,";
-    for (const FollowState state :
-         {FollowState::kMedial, FollowState::kFlat, FollowState::kShrunk, FollowState::kLost}) {
-      csv += fmt::format(",{}", std::ranges::count(frame.states, state));
-    }
+    csv += fmt::format("{},{},{},{}", i, csv_value(frame.name), frame.time,
+                       frame.cover ? cover_numbers(record, *frame.cover) : inside_numbers(record, frame));
+    for (const std::size_t count : state_counts(record, frame)) csv += fmt::format(",{}", count);
     if (record.renews) csv += fmt::format(",{}", frame.renewed());
     csv += '\n';
   }

@@ -51,7 +51,7 @@ struct Track {
 Track track_of(const MotionRecord& record, std::size_t ball, const Point& middle) {
   Track track;
   for (const FollowedFrame& frame : record.frames) {
-    const GlbBall b = glb_ball(frame.balls[ball], middle);
+    const GlbBall b = record.covers ? glb_ball_around(frame.balls[ball], middle) : glb_ball(frame.balls[ball], middle);
     track.centres.push_back(b.centre);
     track.sizes.push_back({b.radius, b.radius, b.radius});
   }

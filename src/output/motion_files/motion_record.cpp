@@ -1,9 +1,21 @@
 #include "output/motion_files/motion_record.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace medial_vk {
+namespace {
+
+constexpr std::array kStatesOfBallsInside = {"medial", "flat", "shrunk", "lost"};
+constexpr std::array kStatesOfCovers = {"steady", "grown", "unused"};
+
+}  // namespace
+
+double CoveredFrame::added_percent() const {
+  if (!(measures.solid_volume > 0)) return std::numeric_limits<double>::quiet_NaN();
+  return 100 * measures.added() / measures.solid_volume;
+}
 
 double FollowedFrame::uncovered_percent() const {
   if (!(measures.solid_volume > 0)) return std::numeric_limits<double>::quiet_NaN();
@@ -14,18 +26,26 @@ std::size_t FollowedFrame::renewed() const {
   return static_cast<std::size_t>(std::ranges::count(origins, FollowOrigin::kRenewed));
 }
 
-const char* name_of(FollowState state) {
-  switch (state) {
-    case FollowState::kMedial:
-      return "medial";
-    case FollowState::kFlat:
-      return "flat";
-    case FollowState::kShrunk:
-      return "shrunk";
-    case FollowState::kLost:
-      break;
+std::span<const char* const> state_names(const MotionRecord& record) {
+  if (record.covers) return kStatesOfCovers;
+  return kStatesOfBallsInside;
+}
+
+std::vector<std::uint8_t> state_numbers(const FollowedFrame& frame) {
+  std::vector<std::uint8_t> numbers;
+  numbers.reserve(frame.balls.size());
+  if (frame.cover) {
+    for (const CoverBallState state : frame.cover->states) numbers.push_back(static_cast<std::uint8_t>(state));
+  } else {
+    for (const FollowState state : frame.states) numbers.push_back(static_cast<std::uint8_t>(state));
   }
-  return "lost";
+  return numbers;
+}
+
+std::vector<std::size_t> state_counts(const MotionRecord& record, const FollowedFrame& frame) {
+  std::vector<std::size_t> counts(state_names(record).size());
+  for (const std::uint8_t number : state_numbers(frame)) ++counts[number];
+  return counts;
 }
 
 }  // namespace medial_vk

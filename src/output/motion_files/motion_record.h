@@ -5,21 +5,42 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "medial_vk/ball.h"
+#include "medial_vk/cover_follower.h"
 #include "medial_vk/follower.h"
 #include "medial_vk/mesh.h"
 #include "medial_vk/sphere_measures.h"
 
 namespace medial_vk {
 
+/// What files say of a ball that is part of a cover.
+enum class CoverBallState : std::uint8_t {
+  kSteady,  ///< None of the others.
+  kGrown,   ///< Its radius is more than a given multiple of that in the rest pose.
+  kUnused,  ///< The cover of this frame does without it: radius 0.
+};
+
+/// What a frame of a cover has in the place of the numbers of balls inside.
+struct CoveredFrame {
+  CoverState proved = CoverState::kSurface;
+  std::vector<CoverBallState> states;
+  CoverFollowMeasures measures;
+  std::optional<double> reach_out_bound;  ///< No ball reaches out of the solid by more; empty: not measured.
+
+  /// Per cent of the solid's volume: that of the balls outside of it; NaN without a volume.
+  double added_percent() const;
+};
+
 /// Balls and numbers of one frame, in mesh units.
 struct FollowedFrame {
-  std::string name;         ///< "rest", a file, or the time in seconds.
-  double time = 0;          ///< Seconds since the rest pose.
-  std::vector<Ball> balls;  ///< Radius 0: lost in this frame.
+  std::string name;                   ///< "rest", a file, or the time in seconds.
+  double time = 0;                    ///< Seconds since the rest pose.
+  std::vector<Ball> balls;            ///< Radius 0: lost in this frame, or of a cover that does without it.
+  std::optional<CoveredFrame> cover;  ///< With MotionRecord::covers, instead of the next four.
   std::vector<FollowState> states;
   std::vector<FollowOrigin> origins;  ///< Empty unless balls may be chosen anew (MotionRecord::renews).
   FollowMeasures measures;
@@ -36,7 +57,8 @@ struct FollowedFrame {
 struct MotionRecord {
   std::string version;  ///< Of the program.
   std::string name;     ///< Of the rest mesh.
-  std::string rule;     ///< "tangent" or "published".
+  std::string rule;     ///< "tangent" or "published", of balls inside; "cover".
+  bool covers = false;  ///< The balls cover each frame.
   double frames_per_second = 0;
   /// The mesh at rest is closed, and no faces cross or lie inside: its signed volume is that of the solid, also in each
   /// frame in which no faces come to cross. Otherwise no volume is written.
@@ -46,7 +68,12 @@ struct MotionRecord {
   std::vector<FollowedFrame> frames;  ///< The rest pose first. All have the same number of balls.
 };
 
-/// "medial", "flat", "shrunk" or "lost", as in files.
-const char* name_of(FollowState state);
+/// The states that balls of the record can have, as in files, by their numbers there. Balls of the last one are not
+/// there: their radius is 0.
+std::span<const char* const> state_names(const MotionRecord& record);
+/// The number of the state of each ball.
+std::vector<std::uint8_t> state_numbers(const FollowedFrame& frame);
+/// The number of balls in each state.
+std::vector<std::size_t> state_counts(const MotionRecord& record, const FollowedFrame& frame);
 
 }  // namespace medial_vk

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
+
+#include "base/rounded_to_float.h"
 
 namespace medial_vk::page {
 namespace {
@@ -18,9 +21,37 @@ void append_difference(std::vector<std::uint8_t>& bytes, std::uint16_t differenc
   bytes.push_back(static_cast<std::uint8_t>(rest));
 }
 
+/// Centre in the units of the page, and a bound of how far it moves, in them: with u = 2^-53, x = fl(fl(c - o) / s)
+/// differs from (c - o) / s by at most 2.1 u |x|, and the difference of x and the nearest float is exact (Sterbenz's
+/// lemma). So the centre moves by at most the sum over its coordinates of this difference and 2.1 u |x|. The terms with
+/// 2^-50 = 8 u are larger than these errors and those of the sums, of the quotient r / s and of the two operations on
+/// it, and 1e-300 than what an underflow can add.
+struct PlacedCentre {
+  std::array<float, 3> centre = {};
+  double moved = 1e-300;
+};
+constexpr double kPlaceRounding = 0x1p-50;
+
+PlacedCentre placed_centre(const Ball& ball, const MotionBox& box) {
+  PlacedCentre placed;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double x = (ball.centre[k] - box.origin[k]) / box.scale;
+    const double rounded = rounded_to_float(x);
+    placed.centre[k] = static_cast<float>(rounded);
+    placed.moved += std::fabs(rounded - x) + kPlaceRounding * std::fabs(x);
+  }
+  return placed;
+}
+
 float rounded_down(double x) {
   const auto rounded = static_cast<float>(x);
   return double{rounded} > x ? std::nextafter(rounded, 0.0f) : rounded;
+}
+
+float rounded_up(double x) {
+  const double rounded = rounded_to_float(x);
+  const auto narrow = static_cast<float>(rounded);
+  return rounded < x ? std::nextafter(narrow, std::numeric_limits<float>::infinity()) : narrow;
 }
 
 }  // namespace
@@ -84,22 +115,16 @@ std::vector<std::uint8_t> FrameCoder::next(std::vector<std::uint16_t> numbers) {
   return shortest;
 }
 
-/// With u = 2^-53, x = fl(fl(c - o) / s) differs from (c - o) / s by at most 2.1 u |x|, and the difference of x and the
-/// nearest float is exact (Sterbenz's lemma). So the centre moves by at most the sum over its coordinates of this
-/// difference and 2.1 u |x|. The terms with 2^-50 = 8 u below are larger than these errors and those of the sums, of
-/// the quotient r / s and of the two operations on it, and 1e-300 than what an underflow can add.
 std::array<float, 4> ball_inside(const Ball& ball, const MotionBox& box) {
-  constexpr double kRounding = 0x1p-50;
-  std::array<float, 4> inside{};
-  double moved = 1e-300;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double x = (ball.centre[k] - box.origin[k]) / box.scale;
-    inside[k] = static_cast<float>(x);
-    moved += std::fabs(inside[k] - x) + kRounding * std::fabs(x);
-  }
-  const double radius = ball.radius / box.scale * (1 - kRounding) - moved;
-  inside[3] = radius > 0 ? rounded_down(radius) : 0.0f;
-  return inside;
+  const auto [centre, moved] = placed_centre(ball, box);
+  const double radius = ball.radius / box.scale * (1 - kPlaceRounding) - moved;
+  return {centre[0], centre[1], centre[2], radius > 0 ? rounded_down(radius) : 0.0f};
+}
+
+std::array<float, 4> ball_around(const Ball& ball, const MotionBox& box) {
+  const auto [centre, moved] = placed_centre(ball, box);
+  const double radius = (ball.radius / box.scale + moved) * (1 + kPlaceRounding);
+  return {centre[0], centre[1], centre[2], ball.radius > 0 ? rounded_up(radius) : 0.0f};
 }
 
 }  // namespace medial_vk::page

@@ -47,4 +47,7 @@ class FrameCoder {
 /// radius 0 if that cannot be had.
 std::array<float, 4> ball_inside(const Ball& ball, const MotionBox& box);
 
+/// The same around the given ball, of a cover; of radius 0 if that has radius 0.
+std::array<float, 4> ball_around(const Ball& ball, const MotionBox& box);
+
 }  // namespace medial_vk::page

@@ -1,6 +1,5 @@
 #include "output/motion_page/motion_page.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -20,19 +19,24 @@ using page::MotionBox;
 /// A number, or null where there is none.
 NumbersOfPage number_or_null(double x) { return std::isfinite(x) ? NumbersOfPage(x) : NumbersOfPage(); }
 
-NumbersOfPage numbers_of(const FollowedFrame& frame, const MotionRecord& record) {
-  const auto count = [&](FollowState state) { return std::ranges::count(frame.states, state); };
+NumbersOfPage inside_numbers(const FollowedFrame& frame, const MotionRecord& record) {
   const double outside = 100 * frame.measures.outside_bound / frame.measures.solid_volume;
-  NumbersOfPage numbers = {
-      {"name", frame.name},
-      {"time", number_or_null(frame.time)},
-      {"uncovered", record.has_volume ? number_or_null(frame.uncovered_percent()) : NumbersOfPage()},
-      {"outside", record.has_volume ? number_or_null(outside) : NumbersOfPage()},
-      {"gap", frame.gap ? NumbersOfPage{frame.gap->lower, frame.gap->upper} : NumbersOfPage()},
-      {"medial", count(FollowState::kMedial)},
-      {"flat", count(FollowState::kFlat)},
-      {"shrunk", count(FollowState::kShrunk)},
-      {"lost", count(FollowState::kLost)}};
+  return {{"uncovered", record.has_volume ? number_or_null(frame.uncovered_percent()) : NumbersOfPage()},
+          {"outside", record.has_volume ? number_or_null(outside) : NumbersOfPage()},
+          {"gap", frame.gap ? NumbersOfPage{frame.gap->lower, frame.gap->upper} : NumbersOfPage()}};
+}
+
+NumbersOfPage cover_numbers(const CoveredFrame& cover, const MotionRecord& record) {
+  return {{"added", record.has_volume ? number_or_null(cover.added_percent()) : NumbersOfPage()},
+          {"reach_out", cover.reach_out_bound ? NumbersOfPage(*cover.reach_out_bound) : NumbersOfPage()},
+          {"solid", cover.proved == CoverState::kSolid}};
+}
+
+NumbersOfPage numbers_of(const FollowedFrame& frame, const MotionRecord& record) {
+  NumbersOfPage numbers = {{"name", frame.name}, {"time", number_or_null(frame.time)}};
+  numbers.update(frame.cover ? cover_numbers(*frame.cover, record) : inside_numbers(frame, record));
+  const std::vector<std::size_t> counts = state_counts(record, frame);
+  for (std::size_t i = 0; i < counts.size(); ++i) numbers[state_names(record)[i]] = counts[i];
   if (record.renews) numbers["renewed"] = frame.renewed();
   return numbers;
 }
@@ -81,9 +85,9 @@ void write_shown(std::string& out, const MotionRecord& record, std::span<const s
     const FollowedFrame& frame = record.frames[i];
     for (const std::uint8_t byte : coder.next(places_in(box, frame.vertices))) vertices.add(byte);
     for (const Ball& ball : frame.balls) {
-      for (const float x : ball_inside(ball, box)) balls.add(x);
+      for (const float x : record.covers ? ball_around(ball, box) : ball_inside(ball, box)) balls.add(x);
     }
-    for (const FollowState state : frame.states) states.add(static_cast<std::uint8_t>(state));
+    for (const std::uint8_t state : state_numbers(frame)) states.add(state);
   }
   for (const page::Block* block : {&triangles, &vertices, &balls, &states}) block->write(out);
 }

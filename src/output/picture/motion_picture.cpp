@@ -17,7 +17,6 @@ namespace medial_vk {
 namespace {
 
 constexpr std::uint32_t kCellWidth = 480, kCellHeight = 400;
-constexpr std::array kDrawnStates = {FollowState::kMedial, FollowState::kFlat, FollowState::kShrunk};
 
 std::vector<const FollowedFrame*> shown_frames(const MotionRecord& record) {
   std::vector<const FollowedFrame*> known, shown;
@@ -50,19 +49,20 @@ std::vector<Point> common_corners(std::span<const FollowedFrame* const> frames) 
   return corners;
 }
 
-/// Colours of sheets, by number.
-int colour_of_state(FollowState state) {
-  constexpr int kColours[] = {1, 5, 4, 0};
-  return kColours[static_cast<std::size_t>(state)];
+/// Of a sheet, by the number of the state in files. Steady balls of a cover have the colour of medial ones, grown ones
+/// that of shrunk ones.
+int colour_of_state(const MotionRecord& record, std::size_t state) {
+  constexpr int kOfBallsInside[] = {1, 5, 4, 0}, kOfCovers[] = {1, 4, 0};
+  return record.covers ? kOfCovers[state] : kOfBallsInside[state];
 }
 
 std::string title_of(const MotionRecord& record, const FollowedFrame& frame) {
   constexpr std::size_t kMost = 28;
   std::string name = frame.name;
   if (name.size() > kMost) name = ".." + name.substr(name.size() - kMost + 2);
-  const double percent = frame.uncovered_percent();
+  const double percent = frame.cover ? frame.cover->added_percent() : frame.uncovered_percent();
   if (!record.has_volume || !std::isfinite(percent)) return name;
-  return fmt::format("{}: {:.2f} per cent uncovered", name, percent);
+  return fmt::format("{}: {:.2f} per cent {}", name, percent, frame.cover ? "added" : "uncovered");
 }
 
 Picture draw_cell(const MotionRecord& record, const FollowedFrame& frame, const std::vector<Point>& corners,
@@ -71,13 +71,14 @@ Picture draw_cell(const MotionRecord& record, const FollowedFrame& frame, const 
   mesh.triangles = record.triangles;
   for (const auto& v : frame.vertices) mesh.vertices.push_back({v[0], v[1], v[2]});
   mesh.vertices.insert(mesh.vertices.end(), corners.begin(), corners.end());
+  const std::vector<std::uint8_t> states = state_numbers(frame);
   std::vector<MedialSphere> marks;
   for (std::size_t i = 0; i < frame.balls.size(); ++i) {
     if (!(frame.balls[i].radius > 0)) continue;
     MedialSphere mark{};
     mark.centre = frame.balls[i].centre;
     mark.radius = frame.balls[i].radius;
-    mark.sheet = colour_of_state(frame.states[i]);
+    mark.sheet = colour_of_state(record, states[i]);
     marks.push_back(mark);
   }
   PictureOptions options;
@@ -87,11 +88,11 @@ Picture draw_cell(const MotionRecord& record, const FollowedFrame& frame, const 
   picture::Scene scene = picture::make_scene(mesh, marks, 0, options);
   scene.legend.title = title_of(record, frame);
   scene.legend.swatches.clear();
-  for (const FollowState state : kDrawnStates) {
-    const auto count = std::ranges::count(frame.states, state);
-    if (count == 0) continue;
-    scene.legend.swatches.emplace_back(picture::sheet_colour_index(colour_of_state(state)),
-                                       fmt::format("{} {}", count, name_of(state)));
+  const std::vector<std::size_t> counts = state_counts(record, frame);
+  for (std::size_t state = 0; state + 1 < counts.size(); ++state) {
+    if (counts[state] == 0) continue;
+    scene.legend.swatches.emplace_back(picture::sheet_colour_index(colour_of_state(record, state)),
+                                       fmt::format("{} {}", counts[state], state_names(record)[state]));
   }
   if (scene.legend.swatches.empty()) scene.legend.swatches.emplace_back(scene.palette.size(), "no ball");
   Picture cell;

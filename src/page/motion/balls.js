@@ -9,27 +9,41 @@ import common from '../shaders/common.glsl';
 import seenBallVertex from '../shaders/seen_ball.vert.glsl';
 import {SeenParts} from './seen_parts.js';
 
-/** In the order of FollowState, whose last one, lost, has no ball. Readers with any colour vision can distinguish them,
- * as they also differ in lightness. */
-export const kStates = [
-  {name: 'medial', colour: [86, 180, 233], what: 'touches the surface in two places that lie apart'},
-  {name: 'flat', colour: [240, 200, 60], what: 'touches it in two places under a small angle'},
-  {name: 'shrunk', colour: [196, 66, 110], what: 'much smaller than in the rest pose'},
+// Readers with any colour vision can distinguish the colours, as they also differ in lightness.
+const kBlue = [86, 180, 233], kYellow = [240, 200, 60], kRed = [196, 66, 110];
+
+/** In the order of FollowState, whose last one, lost, has no ball. */
+const kOfBallsInside = [
+  {name: 'medial', colour: kBlue, what: 'touches the surface in two places that lie apart'},
+  {name: 'flat', colour: kYellow, what: 'touches it in two places under a small angle'},
+  {name: 'shrunk', colour: kRed, what: 'much smaller than in the rest pose'},
   {name: 'lost', what: 'no ball is known to be inside there in this frame; not drawn'},
 ];
+
+/** In the order of CoverBallState, whose last one, unused, has no ball. */
+const kOfCovers = [
+  {name: 'steady', colour: kBlue, what: 'holds its part of the surface with about the radius of the rest pose'},
+  {name: 'grown', colour: kRed, what: 'much larger than in the rest pose'},
+  {name: 'unused', what: 'the cover of this frame does without it; not drawn'},
+];
+
+/** The balls of the motion cover each frame; otherwise they are inside. */
+export const isCover = (motion) => motion.rule === 'cover';
+export const statesOf = (motion) => (isCover(motion) ? kOfCovers : kOfBallsInside);
 const kByRadius = 1, kByTexel = 3;  // Components of the kernels' `values` (shaders/attributes.glsl).
 const kMovingCell = 4, kRestingCell = 2;  // Pixels of the page.
 
 /** Row 1 of the map has a colour for each state. */
-function stateTexels() {
+function stateTexels(motion) {
   const texels = colourTexels();
-  kStates.forEach(({colour}, i) => { if (colour) texels.set(colour, 4 * (256 + i)); });
+  statesOf(motion).forEach(({colour}, i) => { if (colour) texels.set(colour, 4 * (256 + i)); });
   return texels;
 }
 
 export class BallLayer {
-  /** `geometry`: of readGeometry(); `count`: of balls in each frame. */
-  constructor(geometry, count, uniforms, widest) {
+  /** `geometry`: of readGeometry(motion). */
+  constructor(geometry, motion, uniforms, widest) {
+    const count = motion.balls;
     this.balls = geometry.balls;
     this.states = geometry.states;
     this.count = count;
@@ -39,11 +53,12 @@ export class BallLayer {
     this.rectangles = texture(new Float32Array(4 * count));
     this.order = numbers(new Uint32Array(count), 1, RedIntegerFormat, UnsignedIntType, 'R32UI', widest);
     this.parts = new SeenParts(count);
-    this.maps = {states: colourMap(stateTexels()), numbers: colourMap(colourTexels())};
+    this.maps = {states: colourMap(stateTexels(motion)), numbers: colourMap(colourTexels())};
     this.uniforms = {...uniforms, places: {value: this.places}, others: {value: this.others}, order: {value: this.order},
-      rectangles: {value: this.rectangles}, colourMap: {value: null}};
+      rectangles: {value: this.rectangles}, colourMap: {value: null}, ballOpacity: {value: 1}};
+    const defines = isCover(motion) ? {ORDERED: '', SCREENED: ''} : {ORDERED: ''};
     this.object = placed(new Mesh(corners(kCornersOfABall * count), material(common + attributes + seenBallVertex,
-      common + ballFragment, this.uniforms, {...kOpaque, defines: {ORDERED: ''}})), kOrder.content);
+      common + ballFragment, this.uniforms, {...kOpaque, defines})), kOrder.content);
     let greatest = 0;
     for (let i = 3; i < this.balls.length; i += 4) greatest = Math.max(greatest, this.balls[i]);
     this.greatest = greatest;
@@ -59,6 +74,9 @@ export class BallLayer {
     this.uniforms.colourMap.value = by === 'state' ? this.maps.states : this.maps.numbers;
     this.show(this.frame);
   }
+
+  /** 0: invisible, 1: opaque. Of a cover alone, which hides the mesh. */
+  setOpacity(share) { this.uniforms.ballOpacity.value = share; }
 
   /** `frame`: among those with geometry. */
   show(frame) {

@@ -2,7 +2,7 @@
 import {sheetColour, kSheetColours, viridisGradient} from '../colours.js';
 import {brief, grouped, plain} from '../format.js';
 import {bindDialogs, bindFold, bindKeys, byId, element, followTheme, rows, tableOf} from '../page_parts.js';
-import {kStates} from './balls.js';
+import {isCover, statesOf} from './balls.js';
 import {Curve} from './curve.js';
 import {kEnds, Player} from './player.js';
 
@@ -18,19 +18,44 @@ const percent = (x) => (x === null ? 'not known' : `${plain(Number(x.toPrecision
 const seconds = (x) => (x === null ? 'not known' : `${x.toFixed(3)} s`);
 const css = ([r, g, b]) => `rgb(${r} ${g} ${b})`;
 
+/** What the curve shows: its name, which is also that of the numbers in the file, and a sentence. */
+const errorOf = (motion) => (isCover(motion)
+  ? {name: 'added', sentence: "The volume of the balls outside of the solid, over that of the solid, by frame."}
+  : {name: 'uncovered', sentence: "The share of the solid's volume that no ball holds, by frame."});
+
+const columnsOfCover = [
+  ['added', true, (frame) => percent(frame.added)],
+  ['reach out, at most', true, (frame) => (frame.reach_out === null ? 'not measured' : brief(frame.reach_out))],
+  ['covered', false, (frame) => (frame.solid ? 'the solid' : 'the surface')],
+];
+
+function columnsOfInside(motion) {
+  const gap = (frame) => (frame.gap === null ? 'not measured' : frame.gap.map((x) => brief(x)).join(' to '));
+  return [
+    ['uncovered', true, (frame) => percent(frame.uncovered)],
+    ...(motion.rule === 'published' ? [['outside, at most', true, (frame) => percent(frame.outside)]] : []),
+    ['greatest gap', true, gap],
+  ];
+}
+
 /** The columns of the table of frames and the rows of the present one: a name, whether it is a number, and its text. */
 function columnsOf(motion) {
-  const gap = (frame) => (frame.gap === null ? 'not measured' : frame.gap.map((x) => brief(x)).join(' to '));
   return [
     ['frame', true, (frame, i) => String(i)],
     ['name', false, (frame) => frame.name],
     ['time', true, (frame) => seconds(frame.time)],
-    ['uncovered', true, (frame) => percent(frame.uncovered)],
-    ...(motion.rule === 'published' ? [['outside, at most', true, (frame) => percent(frame.outside)]] : []),
-    ['greatest gap', true, gap],
-    ...kStates.map(({name}) => [name, true, (frame) => grouped(frame[name])]),
+    ...(isCover(motion) ? columnsOfCover : columnsOfInside(motion)),
+    ...statesOf(motion).map(({name}) => [name, true, (frame) => grouped(frame[name])]),
     ...(motion.frames[0].renewed === undefined ? [] : [['chosen anew', true, (frame) => grouped(frame.renewed)]]),
   ];
+}
+
+/** What is proved in each frame. */
+function proofOf(motion) {
+  if (motion.rule === 'published') return 'By the published rule: a ball may reach out of the mesh by a given distance';
+  if (!isCover(motion)) return 'Each ball is proved to lie inside the mesh of its frame';
+  if (motion.frames.every(({solid}) => solid)) return 'The balls are proved to cover the solid of each frame';
+  return 'The balls are proved to cover the surface of each frame, and the solid where the numbers say so';
 }
 
 /** Numbers, and what is said about them, without a drawing. */
@@ -41,16 +66,16 @@ export class MotionText {
   }
 
   describe() {
-    const {name, balls, triangles, frames, rule, closed} = this.motion;
+    const {name, balls, triangles, frames, closed} = this.motion;
     byId('name').textContent = name;
     byId('facts').textContent = `${grouped(balls)} balls, ${grouped(triangles)} triangles, ${grouped(frames.length)} frames`;
-    byId('proof').textContent = rule === 'published'
-      ? 'By the published rule: a ball may reach out of the mesh by a given distance; nothing between two frames is '
-        + 'certified, so balls jump from frame to frame.'
-      : 'Each ball is proved to lie inside the mesh of its frame; nothing between two frames is certified, so balls jump '
-        + 'from frame to frame.';
+    byId('proof').textContent = `${proofOf(this.motion)}; nothing between two frames is certified, so balls jump from frame `
+      + 'to frame.';
+    const {name: error, sentence} = errorOf(this.motion);
+    byId('curve-meaning').textContent = sentence;
+    byId('no-volume').textContent = `The mesh is not closed, so the ${error} volume is not known.`;
     byId('no-volume').hidden = closed;
-    rows(byId('states'), kStates.map(({name: state, what}) => [state, what]));
+    rows(byId('states'), statesOf(this.motion).map(({name: state, what}) => [state, what]));
   }
 
   /** Fills the table; of long motions this takes a while. */
@@ -58,9 +83,11 @@ export class MotionText {
     if (this.hasTable) return;
     this.hasTable = true;
     const {frames, version, rule} = this.motion;
+    const distance = isCover(this.motion)
+      ? 'The balls reach out of the solid by no more than the distance given, in units of the mesh.'
+      : 'The gap is the greatest distance from a point of the surface to the balls, in units of the mesh.';
     byId('frames-body').append(
-      element('p', `Made by medial-vk ${version}, rule ${rule}. The gap is the greatest distance from a point of the `
-        + 'surface to the balls, in units of the mesh.'),
+      element('p', `Made by medial-vk ${version}, rule ${rule}. ${distance}`),
       tableOf(this.columns.map(([name, number]) => ({name, number})),
         frames.map((frame, i) => this.columns.map(([, , text]) => text(frame, i)))));
   }
@@ -88,7 +115,8 @@ export class MotionControls {
   start() {
     const {viewer, motion} = this;
     this.player = new Player(motion.shown, (frame) => this.showFrame(frame), () => this.showState());
-    this.curve = new Curve(motion.frames.map((frame) => frame.uncovered), (number) => this.seek(number));
+    const {name} = errorOf(motion);
+    this.curve = new Curve(name, motion.frames.map((frame) => frame[name]), (number) => this.seek(number));
     this.prepareTime();
     this.bind();
     bindKeys(this.keys(), (...of) => this.ownsKey(...of));
@@ -96,6 +124,11 @@ export class MotionControls {
     followTheme(viewer);
     byId('up').value = motion.up;
     viewer.setUp(motion.up);
+    if (isCover(motion)) {
+      // The balls are around the mesh, which is seen through them.
+      byId('opacity').value = 100;
+      byId('ball-slider').hidden = false;
+    }
     this.refreshOpacity();
     this.refreshColour();
     for (const name of kLayers) viewer.showLayer(name, byId(`layer-${name}`).checked);
@@ -132,7 +165,7 @@ export class MotionControls {
     for (const name of kLayers) {
       byId(`layer-${name}`).addEventListener('change', (event) => viewer.showLayer(name, event.target.checked));
     }
-    byId('opacity').addEventListener('input', () => this.refreshOpacity());
+    for (const id of ['opacity', 'ball-opacity']) byId(id).addEventListener('input', () => this.refreshOpacity());
     byId('colour-by').addEventListener('input', () => this.refreshColour());
     byId('up').addEventListener('change', (event) => viewer.setUp(event.target.value));
     byId('reset').addEventListener('click', () => viewer.resetView());
@@ -195,6 +228,10 @@ export class MotionControls {
     const share = Number(byId('opacity').value);
     byId('opacity-value').textContent = `${share} %`;
     this.viewer.setOpacity(share / 100);
+    if (!isCover(this.motion)) return;
+    const ofBalls = Number(byId('ball-opacity').value);
+    byId('ball-opacity-value').textContent = `${ofBalls} %`;
+    this.viewer.setBallOpacity(ofBalls / 100);
   }
 
   refreshColour() {
@@ -219,7 +256,7 @@ export class MotionControls {
       swatch.style.background = colour;
       return element('li', null, swatch, name);
     };
-    if (by === 'state') return [element('ul', null, ...kStates.filter(({colour}) => colour).map(({name, colour}) => item(css(colour), name)))];
+    if (by === 'state') return [element('ul', null, ...statesOf(this.motion).filter(({colour}) => colour).map(({name, colour}) => item(css(colour), name)))];
     const count = Math.min(this.motion.balls, kSheetColours);
     const more = this.motion.balls > count ? [element('li', 'and so on')] : [];
     return [element('ul', null, ...Array.from({length: count}, (_, i) => item(sheetColour(i), String(i))), ...more)];

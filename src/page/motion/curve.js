@@ -1,4 +1,4 @@
-// The uncovered volume over the frames as a curve, with a cursor at the present frame.
+// The uncovered or added volume over the frames as a curve, with a cursor at the present frame.
 import {byId} from '../page_parts.js';
 import {brief} from '../format.js';
 
@@ -32,8 +32,9 @@ export function pathsOf(values, greatest) {
 }
 
 export class Curve {
-  /** `values`: per cent, by frame, null where unknown. `onSeek(number)`: the frame at a place that was chosen. */
-  constructor(values, onSeek) {
+  /** `name`: of the values, per cent, by frame, null where unknown. `onSeek(number)`: the frame at a place that was
+   * chosen. */
+  constructor(name, values, onSeek) {
     this.last = Math.max(values.length - 1, 1);
     const known = values.filter((value) => value !== null);
     byId('curve-box').hidden = byId('curve-labels').hidden = known.length === 0;
@@ -42,9 +43,10 @@ export class Curve {
     const {line, area} = pathsOf(values, greatest);
     byId('curve-line').setAttribute('d', line);
     byId('curve-area').setAttribute('d', area);
+    byId('curve-name').textContent = name;
     byId('curve-top').textContent = `${brief(greatest)} %`;
     const span = [known.reduce((a, b) => Math.min(a, b)), known.reduce((a, b) => Math.max(a, b))].map(brief);
-    byId('curve').setAttribute('aria-label', `Uncovered volume by frame: ${span[0]} to ${span[1]} per cent`);
+    byId('curve').setAttribute('aria-label', `Volume ${name}, by frame: ${span[0]} to ${span[1]} per cent`);
     this.bind(onSeek);
   }
 

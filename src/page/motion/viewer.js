@@ -1,4 +1,4 @@
-// The canvas of the page of a motion: the mesh of a frame as glass, and the balls inside it.
+// The canvas of the page of a motion: the mesh of a frame as glass, and its balls.
 import {commonUniforms, MeshLayer} from '../kernels.js';
 import {View} from '../view.js';
 import {BallLayer} from './balls.js';
@@ -30,7 +30,7 @@ export class MotionViewer extends View {
     this.skin = new Skin({triangles: geometry.triangles, ...grid}, this.placesOf(0));
     this.mesh = new MeshLayer(this.skin.surface, this.uniforms);
     this.mesh.addCreases(this.skin.creases);
-    this.balls = new BallLayer(geometry, motion.balls, this.uniforms, this.renderer.capabilities.maxTextureSize);
+    this.balls = new BallLayer(geometry, motion, this.uniforms, this.renderer.capabilities.maxTextureSize);
     this.model.add(...this.mesh.objects, this.balls.object);
     this.shown = {mesh: true, balls: true};
     this.ratio = 0;  // Of kRatios.
@@ -56,6 +56,11 @@ export class MotionViewer extends View {
 
   setColour(by) {
     this.balls.setColour(by);
+    this.draw();
+  }
+
+  setBallOpacity(share) {
+    this.balls.setOpacity(share);
     this.draw();
   }
 

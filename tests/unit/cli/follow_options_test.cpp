@@ -75,6 +75,45 @@ TEST(FollowOptions, BallsChosenAnew) {
   EXPECT_EQ(parsed_follow({"r.glb", "--rig", "a.json", "--renew", "0"}).follower.renewed, 0u);
 }
 
+TEST(FollowOptions, Covers) {
+  const FollowOptions usual = parsed_follow({"r.obj", "a.obj", "--contract", "cover"});
+  EXPECT_TRUE(usual.covers());
+  EXPECT_EQ(usual.count, 100u);
+  EXPECT_EQ(usual.follower.steps, 1u);
+  EXPECT_EQ(usual.grown, 1.25);
+  EXPECT_FALSE(usual.tighten);
+  const FollowOptions options =
+      parsed_follow({"r.obj", "a.obj", "--contract", "cover", "--count", "30", "--steps", "0", "--tighten", "--grown",
+                     "2", "--check", "--resolution", "60", "--html", "a.html"});
+  EXPECT_EQ(options.follower.steps, 0u);
+  EXPECT_EQ(options.grown, 2);
+  EXPECT_TRUE(options.tighten);
+  EXPECT_TRUE(options.check);
+  EXPECT_FALSE(parsed_follow({"r.obj", "a.obj", "--contract", "inside"}).covers());
+  EXPECT_EQ(parsed_follow({"r.obj", "a.obj", "--contract", "inside"}).count, 500u);
+}
+
+TEST(FollowOptions, EachContractHasItsOptions) {
+  using Words = std::vector<std::string>;
+  for (const Words& option : {Words{"--points", "--resolution", "40"}, Words{"--rule", "tangent"}, Words{"--from-rest"},
+                              Words{"--renew", "0"}, Words{"--renew-factor", "2"}, Words{"--protrusion", "0.1"},
+                              Words{"--shrunk", "0.5"}, Words{"--object-angle", "0.5"}, Words{"--rig", "a.json"}}) {
+    Words arguments = {"r.glb", "--contract", "cover"};
+    arguments.insert(arguments.end(), option.begin(), option.end());
+    EXPECT_THAT(follow_message(arguments),
+                HasSubstr(option[0] + " is about balls inside; it cannot be used with --contract cover"));
+  }
+  for (const Words& option : {Words{"--tighten"}, Words{"--grown", "2"}}) {
+    for (const Words& contract : {Words{}, Words{"--contract", "inside"}}) {
+      Words arguments = {"r.obj", "a.obj"};
+      arguments.insert(arguments.end(), contract.begin(), contract.end());
+      arguments.insert(arguments.end(), option.begin(), option.end());
+      EXPECT_THAT(follow_message(arguments),
+                  HasSubstr(option[0] + " is about balls that cover; use it with --contract cover"));
+    }
+  }
+}
+
 TEST(FollowOptions, ScenesAndBalls) {
   const FollowOptions scene = parsed_follow({"d.glb", "--animation", "walk", "--balls", "b.csv"});
   EXPECT_EQ(scene.animation, "walk");
@@ -131,6 +170,8 @@ TEST(FollowOptions, Ranges) {
                                                                                       {"--fps", "0"},
                                                                                       {"--resolution", "4097"},
                                                                                       {"--threads", "1025"},
+                                                                                      {"--grown", "0.5"},
+                                                                                      {"--contract", "both"},
                                                                                       {"--rule", "other"}}) {
     std::vector<std::string> arguments = {"r.obj", "a.obj"};
     arguments.insert(arguments.end(), option.begin(), option.end());

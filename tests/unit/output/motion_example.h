@@ -1,4 +1,4 @@
-// A record of two balls in three frames, made up.
+// Records of two balls in three frames, made up.
 #pragma once
 
 #include "output/motion_files/motion_record.h"
@@ -41,6 +41,26 @@ inline MotionRecord motion_example() {
   last.states = {FollowState::kShrunk, FollowState::kLost};
   last.measures = {16, 0, 0};
   record.frames = {rest, middle, last};
+  return record;
+}
+
+/// The same cube in a cover: a ball has grown in the second frame, and the other is unused in the third, of which only
+/// the surface is proved to be covered.
+inline MotionRecord cover_motion_example() {
+  MotionRecord record = motion_example();
+  record.rule = "cover";
+  record.covers = true;
+  using enum CoverBallState;
+  const std::vector<CoverBallState> states[] = {{kSteady, kSteady}, {kGrown, kSteady}, {kGrown, kUnused}};
+  const CoverFollowMeasures measures[] = {{8, 10}, {10, 15}, {16, 24}};
+  for (std::size_t i = 0; i < record.frames.size(); ++i) {
+    FollowedFrame& frame = record.frames[i];
+    frame.states.clear();
+    frame.measures = {};
+    frame.gap.reset();
+    frame.cover = CoveredFrame{i < 2 ? CoverState::kSolid : CoverState::kSurface, states[i], measures[i], {}};
+    if (i < 2) frame.cover->reach_out_bound = i == 0 ? 0.25 : 0.5;
+  }
   return record;
 }
 

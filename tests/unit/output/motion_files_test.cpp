@@ -1,5 +1,5 @@
 // Balls in motion as files: every number of the arrays and of the table, and an animation whose balls are inside the
-// given ones.
+// given ones or, of covers, around them.
 #include "output/motion_files/motion_files.h"
 
 #include <gmock/gmock.h>
@@ -93,12 +93,45 @@ TEST(MotionCsv, BallsChosenAnewAreCountedIfThereMayBeAny) {
   EXPECT_FALSE(read_npz(encode_motion_npz(motion_example()).value(), "motion").value().contains("origins"));
 }
 
-TEST(MotionGlb, BallsLieInsideThoseOfTheFrames) {
-  const MotionRecord record = motion_example();
+TEST(MotionNpz, OfACoverSaysWhatIsProved) {
+  const auto arrays = read_npz(encode_motion_npz(test::cover_motion_example()).value(), "motion").value();
+  EXPECT_EQ(arrays.at("balls").shape, (std::vector<std::uint64_t>{3, 2, 4}));
+  EXPECT_EQ(arrays.at("states").bytes, std::string("\0\0\1\0\1\2", 6));
+  EXPECT_EQ(arrays.at("proved").type, "|u1");
+  EXPECT_EQ(arrays.at("proved").bytes, std::string("\0\0\1", 3));
+  EXPECT_EQ(doubles_of(arrays.at("solid_volume")), (std::vector<double>{8, 10, 16}));
+  EXPECT_EQ(doubles_of(arrays.at("ball_volume")), (std::vector<double>{10, 15, 24}));
+  const std::vector<double> reach = doubles_of(arrays.at("reach_out_bound"));
+  EXPECT_EQ(reach[1], 0.5);
+  EXPECT_TRUE(std::isnan(reach[2])) << "not measured";
+  for (const char* const of_inside : {"outside_bound", "gap_lower", "gap_upper", "origins"}) {
+    EXPECT_FALSE(arrays.contains(of_inside)) << of_inside;
+  }
+}
+
+const std::string kCoverNames =
+    "frame,name,time,solid_volume,ball_volume,added_percent,reach_out_bound,proved,steady,grown,unused\n";
+
+TEST(MotionCsv, OfACoverSaysWhatIsProved) {
+  EXPECT_EQ(encode_motion_csv(test::cover_motion_example()), kCoverNames +
+                                                                 "0,rest,0,8,10,25,0.25,solid,2,0,0\n"
+                                                                 "1,a.obj,0.5,10,15,50,0.5,solid,1,1,0\n"
+                                                                 "2,\"the \"\"last\"\", bent.obj\",1,16,24,50,,"
+                                                                 "surface,0,1,1\n");
+  MotionRecord open = test::cover_motion_example();
+  open.has_volume = false;
+  open.frames.resize(1);
+  EXPECT_EQ(encode_motion_csv(open), kCoverNames + "0,rest,0,,10,,0.25,solid,2,0,0\n");
+}
+
+/// The centre's distance from that of the record, and the radius, of a ball in every frame.
+using DistanceAndRadius = std::pair<long double, float>;
+
+std::vector<std::vector<DistanceAndRadius>> glb_tracks(const MotionRecord& record) {
   const test::Glb glb = test::parse_glb(encode_motion_glb(record).value());
   const nlohmann::json& animation = glb.document["animations"][0];
-  ASSERT_EQ(glb.document["nodes"].size(), 3u) << "a root and two balls";
-  ASSERT_EQ(animation["channels"].size(), 4u);
+  EXPECT_EQ(glb.document["nodes"].size(), 3u) << "a root and two balls";
+  EXPECT_EQ(animation["channels"].size(), 4u);
   const auto values = [&](std::size_t node, const char* path) {
     for (const nlohmann::json& channel : animation["channels"]) {
       if (channel["target"]["node"] != node || channel["target"]["path"] != path) continue;
@@ -111,21 +144,51 @@ TEST(MotionGlb, BallsLieInsideThoseOfTheFrames) {
     return std::vector<std::array<float, 3>>(record.frames.size());
   };
   const nlohmann::json& root = glb.document["nodes"][0]["translation"];
+  std::vector<std::vector<DistanceAndRadius>> tracks(2);
   for (std::size_t i = 0; i < 2; ++i) {
     const auto centres = values(i + 1, "translation"), sizes = values(i + 1, "scale");
     for (std::size_t f = 0; f < record.frames.size(); ++f) {
-      const Ball& ball = record.frames[f].balls[i];
       long double squared = 0;
       for (std::size_t k = 0; k < 3; ++k) {
-        const long double off = root[k].get<long double>() + centres[f][k] - ball.centre[k];
+        const long double off = root[k].get<long double>() + centres[f][k] - record.frames[f].balls[i].centre[k];
         squared += off * off;
         EXPECT_EQ(sizes[f][k], sizes[f][0]);
       }
-      if (ball.radius > 0) {
-        EXPECT_LE(std::sqrt(squared) + sizes[f][0], static_cast<long double>(ball.radius)) << f << " " << i;
+      tracks[i].emplace_back(std::sqrt(squared), sizes[f][0]);
+    }
+  }
+  return tracks;
+}
+
+TEST(MotionGlb, BallsLieInsideThoseOfTheFrames) {
+  const MotionRecord record = motion_example();
+  const auto tracks = glb_tracks(record);
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t f = 0; f < record.frames.size(); ++f) {
+      const auto [distance, radius] = tracks[i][f];
+      const double given = record.frames[f].balls[i].radius;
+      if (given > 0) {
+        EXPECT_LE(distance + radius, static_cast<long double>(given)) << f << " " << i;
       }
-      EXPECT_GE(sizes[f][0], 0);
-      EXPECT_NEAR(sizes[f][0], ball.radius, 1e-6) << "floats near 1 are 2^-24 apart";
+      EXPECT_GE(radius, 0);
+      EXPECT_NEAR(radius, given, 1e-6) << "floats near 1 are 2^-24 apart";
+    }
+  }
+}
+
+TEST(MotionGlb, BallsOfACoverHoldThoseOfTheFrames) {
+  const MotionRecord record = test::cover_motion_example();
+  const auto tracks = glb_tracks(record);
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t f = 0; f < record.frames.size(); ++f) {
+      const auto [distance, radius] = tracks[i][f];
+      const double given = record.frames[f].balls[i].radius;
+      if (given > 0) {
+        EXPECT_GE(radius, distance + static_cast<long double>(given)) << f << " " << i;
+      } else {
+        EXPECT_EQ(radius, 0) << f << " " << i;
+      }
+      EXPECT_NEAR(radius, given, 1e-6) << "floats near 1 are 2^-24 apart";
     }
   }
 }

@@ -107,21 +107,22 @@ TEST(MotionFrames, OfASmoothMotionTakeAByteForANumber) {
   }
 }
 
-/// Exactly: with d = origin + scale c' - c, |d| <= r - scale r'.
-void expect_ball_inside(const Ball& ball, const MotionBox& box, const std::array<float, 4>& inside) {
+/// Exactly: with d = origin + scale c' - c, |d| <= r - scale r', or with `around` |d| <= scale r' - r.
+void expect_one_in_the_other(const Ball& ball, const MotionBox& box, const std::array<float, 4>& placed, bool around) {
   using test::ExactNumber;
   const ExactNumber scale = box.scale;
   ExactNumber square;
   for (std::size_t k = 0; k < 3; ++k) {
-    const ExactNumber d = ExactNumber(box.origin[k]) + scale * ExactNumber(double{inside[k]}) - ball.centre[k];
+    const ExactNumber d = ExactNumber(box.origin[k]) + scale * ExactNumber(double{placed[k]}) - ball.centre[k];
     square = square + d * d;
   }
-  const ExactNumber left = ExactNumber(ball.radius) - scale * ExactNumber(double{inside[3]});
+  const ExactNumber given = ball.radius, drawn = scale * ExactNumber(double{placed[3]});
+  const ExactNumber left = around ? drawn - given : given - drawn;
   EXPECT_GE(left.sign(), 0);
   EXPECT_GE((left * left - square).sign(), 0);
 }
 
-TEST(MotionBalls, LieInsideThoseOfTheRecord) {
+TEST(MotionBalls, LieInsideThoseOfTheRecordOrHoldThem) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> unit(-1, 1);
   int drawn = 0;
@@ -133,18 +134,25 @@ TEST(MotionBalls, LieInsideThoseOfTheRecord) {
     Ball ball;
     for (std::size_t k = 0; k < 3; ++k) ball.centre[k] = box.origin[k] + size * unit(random);
     ball.radius = size * std::exp(-9 + 9 * unit(random));
-    const std::array<float, 4> inside = page::ball_inside(ball, box);
+    const std::array<float, 4> inside = page::ball_inside(ball, box), around = page::ball_around(ball, box);
     if (inside[3] > 0) {
       ++drawn;
-      expect_ball_inside(ball, box, inside);
+      expect_one_in_the_other(ball, box, inside, false);
     }
-    // Not far inside: each coordinate moves by at most half a unit in the last place of a float, 2^-25 of it, and the
+    expect_one_in_the_other(ball, box, around, true);
+    // Not far off: each coordinate moves by at most half a unit in the last place of a float, 2^-25 of it, and the
     // radius by another 2^-23 of it.
     double most = 0x1p-22 * ball.radius / box.scale;
     for (std::size_t k = 0; k < 3; ++k) most += 0x1p-24 * std::fabs(ball.centre[k] - box.origin[k]) / box.scale;
     EXPECT_GE(inside[3], ball.radius / box.scale - most);
+    EXPECT_LE(around[3], ball.radius / box.scale + most);
   }
   EXPECT_GT(drawn, 1800);  // the others are smaller than the steps of floats at their place
+}
+
+TEST(MotionBalls, UnusedOnesOfACoverAreNothing) {
+  EXPECT_EQ(page::ball_around({{0.1, 0.2, 0.3}, 0}, MotionBox())[3], 0);
+  EXPECT_EQ(page::ball_around({{0.5, 0.25, 0}, 0.5}, MotionBox())[3], std::nextafter(0.5f, 1.0f));
 }
 
 TEST(MotionBalls, TooSmallForTheirPlaceAreNothing) {
@@ -232,6 +240,27 @@ TEST_F(MotionPageBytes, CountBallsChosenAnewIfThereMayBeAny) {
   for (FollowedFrame& frame : record_.frames) frame.origins.assign(2, FollowOrigin::kFollowed);
   record_.frames[1].origins[0] = FollowOrigin::kRenewed;
   EXPECT_THAT(encode_motion_page(record_), HasSubstr("\"lost\":1,\"renewed\":1}"));
+}
+
+TEST_F(MotionPageBytes, OfACoverSayWhatIsProved) {
+  record_.rule = "cover";
+  record_.covers = true;
+  for (FollowedFrame& frame : record_.frames) {
+    const bool all = frame.balls[1].radius > 0;
+    frame.states.clear();
+    frame.cover = CoveredFrame{all ? CoverState::kSolid : CoverState::kSurface,
+                               {CoverBallState::kGrown, all ? CoverBallState::kSteady : CoverBallState::kUnused},
+                               {8, 10},
+                               {}};
+  }
+  record_.frames[0].cover->reach_out_bound = 0.125;
+  const std::string text = encode_motion_page(record_);
+  EXPECT_THAT(text, HasSubstr("\"rule\":\"cover\""));
+  EXPECT_THAT(text,
+              HasSubstr("\"added\":25.0,\"reach_out\":0.125,\"solid\":true,\"steady\":1,\"grown\":1,\"unused\":0}"));
+  EXPECT_THAT(text, HasSubstr("\"reach_out\":null,\"solid\":false,\"steady\":0,\"grown\":1,\"unused\":1}"));
+  EXPECT_THAT(text, Not(HasSubstr("\"uncovered\":")));
+  EXPECT_THAT(text, HasSubstr(element("states", std::array<std::uint8_t, 6>{1, 0, 1, 2, 1, 0})));
 }
 
 TEST_F(MotionPageBytes, AreTheSameTwice) { EXPECT_EQ(encode_motion_page(record_), encode_motion_page(record_)); }

@@ -32,6 +32,16 @@ TEST(MotionPicture, ACellPerFrameInTheSameView) {
   EXPECT_EQ(drawn_pixels(sheet, 1, 1), 0) << "there is no fourth frame";
 }
 
+TEST(MotionPicture, ACoverIsDrawnWithoutItsUnusedBalls) {
+  const MotionRecord cover = test::cover_motion_example();
+  const Picture sheet = draw_motion(cover, PictureView());
+  EXPECT_EQ(sheet.width, 960u);
+  // The same balls as those of the record of balls inside, of which the one that is lost there is unused here.
+  const Picture inside = draw_motion(test::motion_example(), PictureView());
+  for (const std::uint32_t row : {0u, 1u}) EXPECT_EQ(drawn_pixels(sheet, 0, row), drawn_pixels(inside, 0, row));
+  EXPECT_NE(sheet.rgb, inside.rgb) << "the words of the legend";
+}
+
 TEST(MotionPicture, FramesWithoutVerticesAreLeftOut) {
   MotionRecord record = test::motion_example();
   record.frames[1].vertices.clear();
