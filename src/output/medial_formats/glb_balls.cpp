@@ -14,7 +14,7 @@ float shortened(double x) {
 }
 
 float lengthened(double x) {
-  const double rounded = rounded_to_float(x);
+  const double rounded = static_cast<float>(x);
   const auto narrow = static_cast<float>(rounded);
   return rounded < x ? std::nextafter(narrow, std::numeric_limits<float>::infinity()) : narrow;
 }
@@ -61,7 +61,7 @@ GlbBall glb_ball_around(const Ball& of, const Point& middle) {
   double largest = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double from_middle = of.centre[axis] - middle[axis];
-    const double rounded = rounded_to_float(from_middle);
+    const double rounded = static_cast<float>(from_middle);
     ball.centre[axis] = static_cast<float>(rounded);
     moved = std::hypot(moved, from_middle - rounded);
     largest = std::max(largest, std::abs(from_middle));
