@@ -14,9 +14,8 @@ float shortened(double x) {
 }
 
 float lengthened(double x) {
-  const double rounded = static_cast<float>(x);
-  const auto narrow = static_cast<float>(rounded);
-  return rounded < x ? std::nextafter(narrow, std::numeric_limits<float>::infinity()) : narrow;
+  const auto rounded = static_cast<float>(x);
+  return double{rounded} < x ? std::nextafter(rounded, std::numeric_limits<float>::infinity()) : rounded;
 }
 
 void CentreBox::add(const Point& centre) {
@@ -61,9 +60,8 @@ GlbBall glb_ball_around(const Ball& of, const Point& middle) {
   double largest = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double from_middle = of.centre[axis] - middle[axis];
-    const double rounded = static_cast<float>(from_middle);
-    ball.centre[axis] = static_cast<float>(rounded);
-    moved = std::hypot(moved, from_middle - rounded);
+    ball.centre[axis] = static_cast<float>(from_middle);
+    moved = std::hypot(moved, from_middle - double{ball.centre[axis]});
     largest = std::max(largest, std::abs(from_middle));
   }
   if (of.radius > 0) ball.radius = lengthened((of.radius + moved + 0x1p-51 * largest) * (1 + 0x1p-49));

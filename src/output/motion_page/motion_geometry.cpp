@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "base/rounded_to_float.h"
 
 namespace medial_vk::page {
 namespace {
@@ -36,9 +35,8 @@ PlacedCentre placed_centre(const Ball& ball, const MotionBox& box) {
   PlacedCentre placed;
   for (std::size_t k = 0; k < 3; ++k) {
     const double x = (ball.centre[k] - box.origin[k]) / box.scale;
-    const double rounded = rounded_to_float(x);
-    placed.centre[k] = static_cast<float>(rounded);
-    placed.moved += std::fabs(rounded - x) + kPlaceRounding * std::fabs(x);
+    placed.centre[k] = static_cast<float>(x);
+    placed.moved += std::fabs(double{placed.centre[k]} - x) + kPlaceRounding * std::fabs(x);
   }
   return placed;
 }
@@ -49,9 +47,8 @@ float rounded_down(double x) {
 }
 
 float rounded_up(double x) {
-  const double rounded = rounded_to_float(x);
-  const auto narrow = static_cast<float>(rounded);
-  return rounded < x ? std::nextafter(narrow, std::numeric_limits<float>::infinity()) : narrow;
+  const auto rounded = static_cast<float>(x);
+  return double{rounded} < x ? std::nextafter(rounded, std::numeric_limits<float>::infinity()) : rounded;
 }
 
 }  // namespace
