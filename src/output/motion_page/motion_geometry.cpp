@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-
 namespace medial_vk::page {
 namespace {
 
