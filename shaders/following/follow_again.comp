@@ -1,8 +1,10 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
+#extension GL_EXT_control_flow_attributes : enable
 // Other balls for those whose first one is small or no longer medial: where an image from the rest pose does not fit, the
 // ball that keeps a contact; then the one between both contacts, around the point that lies as far from both along their
 // directions. The greatest stays.
+#include "lanes/lanes.glsl"
 #include "following/frame.glsl"
 #include "following/contacts.glsl"
 #include "following/search.glsl"
@@ -37,25 +39,26 @@ bool touch_nearest(inout FollowedBall tried) {
 
 void main() {
   uint index = invocation_index();
-  if (index >= lists[kFollowAgain]) return;
-  uint entry = list_entry(kFollowAgain, index);
-  uint ball = entry & ~kFollowOfImage;
+  bool is_listed = index < lists[kFollowAgain];
+  uint entry = list_entry(kFollowAgain, min(index, push.ball_count - 1u));
+  uint ball = is_listed ? entry & ~kFollowOfImage : 0u;
   bool of_image = (entry & kFollowOfImage) != 0u;
   start_first(ball, false);
   FollowedBall best = found[ball], tried = contacts_tried;
-  uint stage = of_image ? kKeepContact : kFindNearest;
+  bool goes_on = is_listed;
+  uint stage = kKeepContact;
   while (stage < kEnd) {
-    bool goes_on = true;
-    if (stage == kFindNearest) goes_on = is_too_small(best) && start_between(contacts_tried.a, contacts_tried.b);
-    if (stage == kTouchNearest) goes_on = touch_nearest(tried);
-    if (!goes_on) break;
-    search();
-    if (stage != kFindNearest) {
+    if (stage == kFindNearest) goes_on = goes_on && is_too_small(best) && start_between(contacts_tried.a, contacts_tried.b);
+    if (stage == kTouchNearest) goes_on = goes_on && touch_nearest(tried);
+    bool is_searched = goes_on && (stage != kKeepContact || of_image);
+    search(is_searched);
+    if (is_searched && stage != kFindNearest) {
       FollowedBall now = searched_ball(tried.a, tried.b);
       if (now.ball.w > best.ball.w) best = now;
     }
     if (++stage == kEnd) break;
   }
+  if (!is_listed) return;
   // A ball that is lost keeps the contacts that it had.
   if (!(best.ball.w > 0.0)) best = FollowedBall(contacts_tried.a, contacts_tried.b, best.ball);
   found[ball] = best;

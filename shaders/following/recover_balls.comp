@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 // For lost balls: the greatest ball at one of their contacts, straight behind that triangle, if one is inside.
-#define SEARCH_ROUNDS 1200u
-#define RAY_ROUNDS 2000u
+#define SEARCH_ROUNDS 1000u
+#define RAY_ROUNDS 1900u
 #include "following/frame.glsl"
 #include "following/contacts.glsl"
 #include "following/search.glsl"
@@ -22,7 +22,7 @@ void main() {
     bool has_area = dot(contact.towards.xyz, contact.towards.xyz) > 0.5;
     start_at(contact, contact, 1e8);
     radius = has_area ? 0.5 * longest_side() : 0.0;
-    search();
+    search(true);
     FollowedBall now = searched_ball(contact, contact);
     bool is_found = now.ball.w > 0.0;
     if (is_found) is_found = is_inside(now.ball.xyz);

@@ -25,7 +25,7 @@ void main() {
   place_ball();
   uint triangle = lane, repeats = 0u;
   while (triangle < push.triangle_count) {
-    bool again = shrinks_at(triangle, repeats < kMostRepeats);
+    bool again = shrinks_at(load_followed(triangle), triangle, true, repeats < kMostRepeats);
     repeats += again ? 1u : 0u;
     triangle += again ? 0u : gl_WorkGroupSize.x;
   }

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "base/host_memory.h"
-#include "bvh/refined_tree.h"
 #include "device/context_impl.h"
 #include "device_commands/commands.h"
 #include "device_commands/uploads.h"
@@ -33,9 +32,9 @@ static_assert(static_cast<std::uint32_t>(FollowState::kFlat) == gpu::kFollowFlat
 static_assert(static_cast<std::uint32_t>(FollowState::kShrunk) == gpu::kFollowShrunk);
 static_assert(static_cast<std::uint32_t>(FollowState::kLost) == gpu::kFollowIsLost);
 
-constexpr std::uint32_t kWorkgroupSize = 64;
+constexpr std::uint32_t kWorkgroupSize = gpu::kFollowGroup;
 constexpr std::uint32_t kResolveGroup = 256;
-/// Levels of the tree with no more nodes are refitted by one workgroup together with all above them.
+/// Levels of the tree with no more places are refitted by one workgroup together with all above them.
 constexpr std::uint32_t kSmallLevel = 512;
 constexpr double kLeastSide = 1e-25, kMostSide = 1e25;
 /// One invocation of 256 tests its share of all triangles within lavapipe's iterations (resolve_followed.comp).
@@ -57,6 +56,15 @@ float squared_turn_at(double object_angle) {
   return static_cast<float>(turn * turn);
 }
 
+/// Words before the lists: nothing is refused, the lists are empty, and so are dispatches over them.
+constexpr std::array<std::uint32_t, gpu::kFollowLists> kEmptyLists = {0, 0, 0, 0, 0, 1, 1, 0, 1, 1, 0, 1, 1};
+
+/// True if eight neighbouring invocations are a subgroup of their own.
+bool can_walk_together(const ContextImpl& context) {
+  return context.has_lockstep_lanes && context.subgroup.subgroupSize == 8 &&
+         (context.subgroup.supportedOperations & VK_SUBGROUP_FEATURE_BALLOT_BIT) != 0;
+}
+
 std::vector<std::uint32_t> places_of(const Bvh& bvh) {
   std::vector<std::uint32_t> places(bvh.order().size());
   for (std::uint32_t i = 0; i < places.size(); ++i) places[bvh.order()[i]] = i;
@@ -68,8 +76,8 @@ std::vector<std::uint32_t> places_of(const Bvh& bvh) {
 struct FollowerJob::Impl {
   /// Of the dispatches; made once, since their names take memory.
   struct Keys {
-    ProgramKey place_triangles, refit_level, refit_small_levels, follow, prepare_resolve, resolve;
-    std::array<ProgramKey, 5> complete;  // after `resolve`, in this order
+    ProgramKey place_triangles, refit_level, refit_small_levels, follow, prepare_resolve, resolve, follow_again,
+        connect, cast_rays, settle, recover;
   };
   /// The resources of a recorded sequence, in use until it has finished.
   struct Frame {
@@ -84,8 +92,9 @@ struct FollowerJob::Impl {
   Arena arena;
   Buffer vertices, indices, levels, triangles, nodes, lists, rests, states, found, sides, unresolved, balls,
       ball_states;
-  std::uint32_t vertex_count = 0, triangle_count = 0, ball_count = 0, node_count = 0;
-  bool use_texels = true;  // triangles and nodes are not too large for views
+  std::uint32_t vertex_count = 0, triangle_count = 0, ball_count = 0, place_count = 0;
+  bool walk_together = false;  // eight balls a walk
+  bool use_texels = true;      // triangles and nodes are not too large for views
   VkBufferView triangle_texels = VK_NULL_HANDLE, node_texels = VK_NULL_HANDLE;
   std::vector<std::uint32_t> level_sizes;
   Keys keys;
@@ -96,8 +105,7 @@ struct FollowerJob::Impl {
   bool from_rest = true;      // its sequence follows the rest pose
 
   Status check_sizes(std::size_t all_triangles, std::size_t all_balls, std::size_t all_vertices) const;
-  Status fill(const IndexedMesh& rest, const Bvh& bvh, const ThreadedTree& tree,
-              const std::vector<gpu::FollowRest>& at_rest);
+  Status fill(const IndexedMesh& rest, const ThreadedTree& tree, const std::vector<gpu::FollowRest>& at_rest);
   Status make_buffers();
   Status make_views();
   void make_keys();
@@ -156,7 +164,7 @@ Status FollowerJob::Impl::make_buffers() {
 
 /// Of a buffer that is never read, where kernels read storage.
 Status FollowerJob::Impl::make_views() {
-  use_texels = std::max(4 * triangle_count, 2 * node_count) <= context.limits.maxTexelBufferElements;
+  use_texels = std::max(4 * triangle_count, 2 * place_count) <= context.limits.maxTexelBufferElements;
   Buffer unused;
   if (!use_texels) {
     Result<Buffer> made = arena.create_buffer(16, MemoryKind::kDevice, "an unused texel buffer");
@@ -173,24 +181,28 @@ Status FollowerJob::Impl::make_views() {
 }
 
 void FollowerJob::Impl::make_keys() {
-  const auto of_balls = [&](const char* shader, std::uint32_t group = kWorkgroupSize) {
+  const auto of_balls = [&](const std::string& shader, std::uint32_t group = kWorkgroupSize) {
     constexpr std::uint32_t kStorage = 10, kTexels = 2;  // as in follow()
-    return ProgramKey{
-        std::string(shader) + storage_suffix(use_texels), kStorage, kTexels, sizeof(gpu::FollowConstants), group, {}};
+    return ProgramKey{shader + storage_suffix(use_texels), kStorage, kTexels, sizeof(gpu::FollowConstants), group, {}};
   };
+  const std::string lockstep = walk_together ? "_lockstep" : "";
   constexpr auto kBytes = static_cast<std::uint32_t>(sizeof(gpu::RefitConstants));
   keys.place_triangles = {"place_triangles", 4, 0, kBytes, kWorkgroupSize, {}};
   keys.refit_level = {"refit_nodes", 3, 0, kBytes, kWorkgroupSize, {0}};
   keys.refit_small_levels = {"refit_nodes", 3, 0, kBytes, kResolveGroup, {1}};
-  keys.follow = of_balls("follow_balls");
+  keys.follow = of_balls("follow_balls" + lockstep);
   keys.prepare_resolve = {"prepare_resolve", 1, 0, 0, 1, {}};
   keys.resolve = of_balls("resolve_followed", kResolveGroup);
-  keys.complete = {of_balls("follow_again"), of_balls("connect_balls"), of_balls("cast_rays"), of_balls("settle_balls"),
-                   of_balls("recover_balls")};
+  keys.follow_again = of_balls("follow_again" + lockstep);
+  keys.connect = of_balls("connect_balls");
+  keys.cast_rays = of_balls("cast_rays");
+  keys.settle = of_balls("settle_balls");
+  keys.recover = of_balls("recover_balls");
 }
 
-Status FollowerJob::Impl::fill(const IndexedMesh& rest, const Bvh& bvh, const ThreadedTree& tree,
+Status FollowerJob::Impl::fill(const IndexedMesh& rest, const ThreadedTree& tree,
                                const std::vector<gpu::FollowRest>& at_rest) {
+  const Bvh& bvh = rest.bvh();
   std::vector<std::uint32_t> corners;
   corners.reserve(3 * bvh.order().size());
   for (const std::uint32_t triangle : bvh.order()) {
@@ -199,8 +211,9 @@ Status FollowerJob::Impl::fill(const IndexedMesh& rest, const Bvh& bvh, const Th
   vertex_count = static_cast<std::uint32_t>(rest.view().vertices.size());
   triangle_count = static_cast<std::uint32_t>(bvh.order().size());
   ball_count = static_cast<std::uint32_t>(at_rest.size());
-  node_count = tree.node_count();
-  for (std::uint32_t level = 0; level < tree.level_count; ++level) level_sizes.push_back(tree.nodes_of(level));
+  place_count = tree.place_count();
+  walk_together = can_walk_together(context) && tree.depth <= gpu::kMostFollowDepth;
+  for (std::uint32_t level = 0; level < tree.level_count; ++level) level_sizes.push_back(tree.places_of(level));
   if (Status status = make_buffers(); !status) return status;
   Uploads uploads(context);
   const auto upload_all = [&](const auto& values, const char* purpose, Buffer& buffer) -> Status {
@@ -210,7 +223,7 @@ Status FollowerJob::Impl::fill(const IndexedMesh& rest, const Bvh& bvh, const Th
     return {};
   };
   if (Status status = upload_all(corners, "indices of vertices", indices); !status) return status;
-  if (Status status = upload_all(tree.nodes, "a tree of triangles that move", nodes); !status) return status;
+  if (Status status = upload_all(tree.places, "a tree of triangles that move", nodes); !status) return status;
   if (Status status = upload_all(tree.levels, "levels of a tree", levels); !status) return status;
   if (Status status = upload_all(at_rest, "balls at rest", rests); !status) return status;
   const std::vector<std::uint32_t> none(gpu::kUnresolvedFirst, 0);
@@ -229,11 +242,11 @@ void FollowerJob::Impl::refit(Recorder& r) const {
   const std::array of_nodes = {triangles.range(), nodes.range(), levels.range()};
   const auto level_count = static_cast<std::uint32_t>(level_sizes.size());
   while (constants.first_level < level_count) {
-    const std::uint32_t nodes_here = level_sizes[constants.first_level];
-    const bool is_small = nodes_here <= kSmallLevel;  // and so are those above
+    const std::uint32_t places_here = level_sizes[constants.first_level];
+    const bool is_small = places_here <= kSmallLevel;  // and so are those above
     constants.end_level = is_small ? level_count : constants.first_level + 1;
     const ProgramKey& key = is_small ? keys.refit_small_levels : keys.refit_level;
-    r.dispatch(key, of_nodes, {}, bytes_of(constants), is_small ? key.workgroup_size : nodes_here);
+    r.dispatch(key, of_nodes, {}, bytes_of(constants), is_small ? key.workgroup_size : places_here);
     r.barrier();
     constants.first_level = constants.end_level;
   }
@@ -241,7 +254,7 @@ void FollowerJob::Impl::refit(Recorder& r) const {
 
 void FollowerJob::Impl::follow(Recorder& r) const {
   const gpu::FollowConstants constants = {ball_count,
-                                          node_count,
+                                          place_count,
                                           triangle_count,
                                           from_rest ? 1u : 0u,
                                           scale,
@@ -267,15 +280,25 @@ void FollowerJob::Impl::follow(Recorder& r) const {
   const std::array list = {unresolved.range()};
   r.dispatch(keys.prepare_resolve, list, {}, {}, 1);
   r.barrier();
-  r.dispatch_indirect(keys.resolve, buffers, texels, bytes_of(constants), unresolved, gpu::kUnresolvedGroups * 4);
-  r.barrier();
-  for (const ProgramKey& key : keys.complete) run(key);
+  const auto run_by = [&](const ProgramKey& key, const Buffer& counts, std::uint32_t word) {
+    r.dispatch_indirect(key, buffers, texels, bytes_of(constants), counts, VkDeviceSize{word} * 4);
+    r.barrier();
+  };
+  const auto run_list = [&](const ProgramKey& key, std::uint32_t list_index) {
+    run_by(key, lists, gpu::kFollowGroups + 3 * (list_index - gpu::kFollowAgain));
+  };
+  run_by(keys.resolve, unresolved, gpu::kUnresolvedGroups);
+  run_list(keys.follow_again, gpu::kFollowAgain);
+  run(keys.connect);
+  run_list(keys.cast_rays, gpu::kFollowRays);
+  run(keys.settle);
+  run_list(keys.recover, gpu::kFollowLost);
 }
 
 Status FollowerJob::Impl::append(Recorder& r, const Frame& frame) const {
   r.barrier_to_others();
   if (has_vertices) r.copy(frame.staged, 0, vertices, 0, VkDeviceSize{vertex_count} * sizeof(RecordedVertex));
-  r.fill(lists, 0, gpu::kFollowLists * 4, 0);
+  r.update(lists, 0, std::as_bytes(std::span(kEmptyLists)));
   r.barrier();
   refit(r);
   follow(r);
@@ -301,13 +324,11 @@ Result<FollowerJob> FollowerJob::create(Context& context, const IndexedMesh& res
     on_host.object_angle = options.object_angle;
     on_host.threads = options.threads;
     if (Result<Follower> tested = Follower::create(rest, balls, on_host); !tested) return tested.error();
-    Result<Bvh> bvh = refined_tree(rest.bvh(), gpu::kMostFollowLeaf);
-    if (!bvh) return bvh.error();
     impl->scale = static_cast<float>(std::ldexp(1.0, -std::ilogb(rest.longest_side())));
     Result<std::vector<gpu::FollowRest>> at_rest =
-        make_rest_balls(surface.value(), balls, places_of(bvh.value()), double{impl->scale}, options.threads);
+        make_rest_balls(surface.value(), balls, places_of(rest.bvh()), double{impl->scale}, options.threads);
     if (!at_rest) return at_rest.error();
-    if (Status status = impl->fill(rest, bvh.value(), make_threaded_tree(bvh.value()), at_rest.value()); !status) {
+    if (Status status = impl->fill(rest, make_threaded_tree(rest.bvh()), at_rest.value()); !status) {
       return status.error();
     }
     const auto rehearse = [&](Recorder& r) { return impl->append(r, impl->frames.front()); };

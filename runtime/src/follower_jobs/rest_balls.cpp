@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <queue>
@@ -17,6 +18,7 @@ namespace medial_vk {
 namespace {
 
 constexpr std::size_t kBallsAtATime = 16;  // that one thread takes
+constexpr std::size_t kBallsOfWalk = 8;
 
 /// A ball of the caller touches the surface at the point nearest to its centre.
 TrackedBall tracked_at_rest(const MovingSurface& surface, const Ball& ball) {
@@ -57,6 +59,31 @@ gpu::FollowRest packed_rest(const MovingSurface& surface, const TrackedBall& tra
   rest.through = static_cast<float>(std::min(scale * through, 1e8));
   rest.turn = static_cast<float>(dot(tracked.a.towards_centre, tracked.b.towards_centre));
   return rest;
+}
+
+/// Sorts balls into groups of eight, which walk the tree together: those that are longest in some coordinate, of the
+/// centre or the radius, are cut in the middle of it.
+void group_neighbours(std::span<const TrackedBall> tracked, std::span<std::uint32_t> order) {
+  if (order.size() <= kBallsOfWalk) return;
+  const auto coordinate = [&](std::uint32_t ball, std::size_t axis) {
+    return axis < 3 ? tracked[ball].ball.centre[axis] : tracked[ball].ball.radius;
+  };
+  double longest = -1;
+  std::size_t along = 0;
+  for (std::size_t axis = 0; axis < 4; ++axis) {
+    const auto value = [&](std::uint32_t ball) { return coordinate(ball, axis); };
+    const auto [least, most] = std::ranges::minmax_element(order, {}, value);
+    const double extent = value(*most) - value(*least);
+    if (extent <= longest) continue;
+    longest = extent;
+    along = axis;
+  }
+  const std::size_t groups = (order.size() + kBallsOfWalk - 1) / kBallsOfWalk, first = groups / 2 * kBallsOfWalk;
+  // By their numbers, where coordinates are equal: one result with all libraries.
+  std::ranges::nth_element(order, order.begin() + static_cast<std::ptrdiff_t>(first), {},
+                           [&](std::uint32_t ball) { return std::pair(coordinate(ball, along), ball); });
+  group_neighbours(tracked, order.first(first));
+  group_neighbours(tracked, order.subspan(first));
 }
 
 /// Links between balls that overlap little are long, so that short ways avoid them.
@@ -111,7 +138,7 @@ Result<std::vector<gpu::FollowRest>> make_rest_balls(const MovingSurface& surfac
                [&](std::size_t i) { tracked[i] = tracked_at_rest(surface, balls[i]); });
   std::vector<std::uint32_t> order(balls.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return places[tracked[i].a.on.triangle]; });
+  group_neighbours(tracked, order);
   std::vector<Ball> sorted(balls.size());
   for (std::size_t i = 0; i < order.size(); ++i) sorted[i] = tracked[order[i]].ball;
   Result<std::vector<std::uint32_t>> parents = overlapping_parents(sorted, threads);

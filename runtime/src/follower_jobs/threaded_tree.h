@@ -1,4 +1,5 @@
-// A tree over triangles as kernels of balls that follow a mesh walk it: without a stack.
+// A tree over triangles with eight children a node, as kernels of balls that follow a mesh walk it: eight balls together
+// with a node at a time, or one ball box by box, without a stack.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +11,17 @@
 namespace medial_vk {
 
 struct ThreadedTree {
-  /// Two for each node, in depth-first order (shaders/shared/following/frame.glsl); without boxes.
-  std::vector<gpu::uvec4> nodes;
-  /// Nodes by their height above the leaves: where heights start in this array, and where the last one ends; then the
-  /// nodes.
+  /// Two for each place of a child (shaders/shared/following/frame.glsl), kFollowArity places a node; without boxes,
+  /// but those of unused places are empty.
+  std::vector<gpu::uvec4> places;
+  /// Used places by their height above the leaves: where heights start in this array, and where the last one ends; then
+  /// the places.
   std::vector<std::uint32_t> levels;
   std::uint32_t level_count = 0;
+  std::uint32_t depth = 0;  // most nodes on a way from the root
 
-  std::uint32_t node_count() const { return static_cast<std::uint32_t>(nodes.size() / 2); }
-  std::uint32_t nodes_of(std::uint32_t level) const { return levels[level + 1] - levels[level]; }
+  std::uint32_t place_count() const { return static_cast<std::uint32_t>(places.size() / 2); }
+  std::uint32_t places_of(std::uint32_t level) const { return levels[level + 1] - levels[level]; }
 };
 
 /// The nodes of `bvh`; triangles are those of its leaf order. Precondition: less than 2^24 of them.

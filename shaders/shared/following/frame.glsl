@@ -4,8 +4,10 @@
 // A triangle is four vectors: its corners, with the inverse squares of the lengths of the edges 01, 02 and 12 (0 for an
 // edge without length), and its unit normal (0 without a meaningful area).
 //
-// The tree has its nodes in depth-first order, two vectors each: the lower corner of the box as bits, and the leaf (0: an
-// inner node); the upper corner, and the next node outside of this one.
+// A node of the tree is eight places for children, of two vectors each: the lower corner of the box as bits, and the
+// leaf, or the node that it leads to (less than 2^24; nodes below one node follow each other, and come before leaves);
+// the upper corner, and the next place that is not below this one. Unused places have empty boxes. Node 0 has one place,
+// with the box around all triangles, and leads to node 1.
 #ifndef MEDIAL_VK_FOLLOWING_FRAME_GLSL
 #define MEDIAL_VK_FOLLOWING_FRAME_GLSL
 #include "follow_types.h"
@@ -40,6 +42,7 @@ uint invocation_index() { return workgroup_index() * gl_WorkGroupSize.x + gl_Loc
 uint list_entry(uint list, uint index) { return lists[kFollowLists + (list - kFollowAgain) * push.ball_count + index]; }
 void append(uint list, uint entry) {
   uint index = atomicAdd(lists[list], 1u);
+  if (index % kFollowGroup == 0u) atomicAdd(lists[kFollowGroups + 3u * (list - kFollowAgain)], 1u);
   lists[kFollowLists + (list - kFollowAgain) * push.ball_count + index] = entry;
 }
 

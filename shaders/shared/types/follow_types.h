@@ -34,12 +34,15 @@ struct FollowRest {
   uint index;     // its place in the order of the caller
 };
 
-// Words of the lists; three lists of as many words as there are balls follow from kFollowLists on.
+// Words of the lists; three lists of as many words as there are balls follow from kFollowLists on. Lists have three group
+// counts each, with kFollowGroup entries for a workgroup.
 MEDIAL_VK_GPU_CONSTANT kFollowRefused = 0u;  // not 0: a coordinate of this frame is not finite, or too large
 MEDIAL_VK_GPU_CONSTANT kFollowAgain = 1u;    // lengths of the lists: balls that are tried in other ways, too,
 MEDIAL_VK_GPU_CONSTANT kFollowRays = 2u;     // balls whose sides are decided by rays,
 MEDIAL_VK_GPU_CONSTANT kFollowLost = 3u;     // balls that are to be recovered
-MEDIAL_VK_GPU_CONSTANT kFollowLists = 4u;
+MEDIAL_VK_GPU_CONSTANT kFollowGroups = 4u;   // group counts of the three lists
+MEDIAL_VK_GPU_CONSTANT kFollowLists = 13u;
+MEDIAL_VK_GPU_CONSTANT kFollowGroup = 64u;
 MEDIAL_VK_GPU_CONSTANT kFollowOfImage = 0x80000000u;  // in a list: what was tried is the image of the ball at rest
 
 // States of balls, in the order of FollowState.
@@ -53,8 +56,10 @@ MEDIAL_VK_GPU_CONSTANT kFollowOutside = 0xfffffffeu;
 MEDIAL_VK_GPU_CONSTANT kFollowInside = 0xffffffffu;
 MEDIAL_VK_GPU_CONSTANT kMostFollowLinks = 1000u;  // from a ball to its parent, to the parent of that, and so on
 
-MEDIAL_VK_GPU_CONSTANT kFollowLeafBits = 24u;  // a leaf: number of triangles above, the first one below
-MEDIAL_VK_GPU_CONSTANT kMostFollowLeaf = 4u;
+MEDIAL_VK_GPU_CONSTANT kFollowLeafBits = 24u;      // a leaf: number of triangles above, the first one below
+MEDIAL_VK_GPU_CONSTANT kMostFollowLeaf = 8u;
+MEDIAL_VK_GPU_CONSTANT kFollowArity = 8u;          // places of children in a node
+MEDIAL_VK_GPU_CONSTANT kMostFollowDepth = 16u;     // nodes above each other that balls walk together
 
 // The longest side of a frame may be from 1/4096 to 4096 times the unit, and coordinates up to 2^20.
 MEDIAL_VK_GPU_CONSTANT_FLOAT kLeastFollowSide = 0.000244140625f;
@@ -64,7 +69,7 @@ MEDIAL_VK_GPU_CONSTANT_FLOAT kMostFollowCoordinate = 1048576.0f;
 // Push constants of the kernels of balls.
 struct FollowConstants {
   uint ball_count;
-  uint node_count;
+  uint place_count;     // of children in all nodes
   uint triangle_count;
   uint from_rest;       // 1: the frame before is the rest pose
   float scale;          // a length of the caller times this
