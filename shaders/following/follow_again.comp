@@ -13,11 +13,11 @@
 const uint kKeepContact = 0u, kFindNearest = 1u, kTouchNearest = 2u, kEnd = 3u;
 
 // The point from which `nearest` is sought; false: there is none.
-bool start_between(FollowContact a, FollowContact b) {
+bool start_between(Contact a, Contact b) {
   vec3 at_a = point_of(a), at_b = point_of(b);
-  vec3 turn = a.towards.xyz - b.towards.xyz;
+  vec3 turn = a.towards - b.towards;
   float square = dot(turn, turn), along = square > 1e-12 ? dot(at_b - at_a, turn) / square : 0.0;
-  centre = 0.5 * ((at_a + along * a.towards.xyz) + (at_b + along * b.towards.xyz));
+  centre = 0.5 * ((at_a + along * a.towards) + (at_b + along * b.towards));
   radius = 1.00001 * min(distance(centre, at_a), distance(centre, at_b));
   is_fixed = true;
   touching_triangle = 0xffffffffu;
@@ -25,16 +25,16 @@ bool start_between(FollowContact a, FollowContact b) {
 }
 
 // At the point that was found; false: it is too near, or the guess is outside, as far as the normal tells.
-bool touch_nearest(inout FollowedBall tried) {
+bool touch_nearest(inout TrackedBall tried) {
   if (touching_triangle == 0xffffffffu || !is_complete) return false;
   vec3 guess = centre;
   vec3 away = guess - touching;
-  FollowContact nearest = contact_at(touching, touching_triangle, unit_or_zero(away));
+  Contact nearest = contact_at(touching, touching_triangle, unit_or_zero(away));
   vec3 to_a = point_of(tried.a) - guess, to_b = point_of(tried.b) - guess;
   if (dot(to_a, to_a) > dot(to_b, to_b)) tried.b = tried.a;
   tried.a = nearest;
   start_at(tried.a, tried.b, 1e8);
-  return length(away) > 2.0 * slack && dot(nearest.towards.xyz, inward_normal(nearest.triangle)) > 0.0;
+  return length(away) > 2.0 * slack && dot(nearest.towards, inward_normal(nearest.triangle)) > 0.0;
 }
 
 void main() {
@@ -44,7 +44,7 @@ void main() {
   uint ball = is_listed ? entry & ~kFollowOfImage : 0u;
   bool of_image = (entry & kFollowOfImage) != 0u;
   start_first(ball, false);
-  FollowedBall best = found[ball], tried = contacts_tried;
+  TrackedBall best = load_found(ball), tried = contacts_tried;
   bool goes_on = is_listed;
   uint stage = kKeepContact;
   while (stage < kEnd) {
@@ -53,13 +53,13 @@ void main() {
     bool is_searched = goes_on && (stage != kKeepContact || of_image);
     search(is_searched);
     if (is_searched && stage != kFindNearest) {
-      FollowedBall now = searched_ball(tried.a, tried.b);
+      TrackedBall now = searched_ball(tried.a, tried.b);
       if (now.ball.w > best.ball.w) best = now;
     }
     if (++stage == kEnd) break;
   }
   if (!is_listed) return;
   // A ball that is lost keeps the contacts that it had.
-  if (!(best.ball.w > 0.0)) best = FollowedBall(contacts_tried.a, contacts_tried.b, best.ball);
-  found[ball] = best;
+  if (!(best.ball.w > 0.0)) best = TrackedBall(contacts_tried.a, contacts_tried.b, best.ball);
+  store_found(ball, best);
 }

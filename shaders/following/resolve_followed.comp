@@ -1,5 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
+#extension GL_EXT_control_flow_attributes : enable
 // The balls whose search was too long: a workgroup tests all triangles for one ball. Each invocation shrinks a ball of
 // its own; the least of them has shrunk enough for all.
 #include "following/frame.glsl"

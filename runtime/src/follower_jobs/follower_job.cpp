@@ -95,7 +95,7 @@ struct FollowerJob::Impl {
   std::uint32_t vertex_count = 0, triangle_count = 0, ball_count = 0, place_count = 0;
   bool walk_together = false;  // eight balls a walk
   bool use_texels = true;      // triangles and nodes are not too large for views
-  VkBufferView triangle_texels = VK_NULL_HANDLE, node_texels = VK_NULL_HANDLE;
+  std::array<VkBufferView, 5> texels = {};  // of triangles, nodes, rests, states, found
   std::vector<std::uint32_t> level_sizes;
   Keys keys;
   float scale = 1;
@@ -147,7 +147,7 @@ Status FollowerJob::Impl::make_buffers() {
     return status;
   }
   if (Status status = make((gpu::kFollowLists + 3 * n) * 4, "lists of balls", lists); !status) return status;
-  if (Status status = make(n * sizeof(gpu::FollowedBall), "states of balls", states); !status) return status;
+  if (Status status = make(n * sizeof(gpu::FollowState), "states of balls", states); !status) return status;
   if (Status status = make(n * sizeof(gpu::FollowedBall), "followed balls", found); !status) return status;
   if (Status status = make(n * 4, "sides of balls", sides); !status) return status;
   if (Status status = make((gpu::kUnresolvedFirst + n) * 4, "unresolved balls", unresolved); !status) return status;
@@ -164,25 +164,28 @@ Status FollowerJob::Impl::make_buffers() {
 
 /// Of a buffer that is never read, where kernels read storage.
 Status FollowerJob::Impl::make_views() {
-  use_texels = std::max(4 * triangle_count, 2 * place_count) <= context.limits.maxTexelBufferElements;
+  const std::size_t most = std::max({std::size_t{4} * triangle_count, std::size_t{2} * place_count,
+                                     std::size_t{gpu::kRestVectors} * ball_count});
+  use_texels = most <= context.limits.maxTexelBufferElements;
   Buffer unused;
   if (!use_texels) {
     Result<Buffer> made = arena.create_buffer(16, MemoryKind::kDevice, "an unused texel buffer");
     if (!made.ok()) return made.error();
     unused = made.value();
   }
-  Result<VkBufferView> of_triangles = arena.create_texel_view(use_texels ? triangles : unused);
-  if (!of_triangles.ok()) return of_triangles.error();
-  Result<VkBufferView> of_nodes = arena.create_texel_view(use_texels ? nodes : unused, VK_FORMAT_R32G32B32A32_UINT);
-  if (!of_nodes.ok()) return of_nodes.error();
-  triangle_texels = of_triangles.value();
-  node_texels = of_nodes.value();
+  const std::array buffers = {&triangles, &nodes, &rests, &states, &found};
+  for (std::size_t i = 0; i < buffers.size(); ++i) {
+    const VkFormat format = i == 0 ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R32G32B32A32_UINT;
+    Result<VkBufferView> view = arena.create_texel_view(use_texels ? *buffers[i] : unused, format);
+    if (!view.ok()) return view.error();
+    texels[i] = view.value();
+  }
   return {};
 }
 
 void FollowerJob::Impl::make_keys() {
   const auto of_balls = [&](const std::string& shader, std::uint32_t group = kWorkgroupSize) {
-    constexpr std::uint32_t kStorage = 10, kTexels = 2;  // as in follow()
+    constexpr std::uint32_t kStorage = 10, kTexels = 5;  // as in follow()
     return ProgramKey{shader + storage_suffix(use_texels), kStorage, kTexels, sizeof(gpu::FollowConstants), group, {}};
   };
   const std::string lockstep = walk_together ? "_lockstep" : "";
@@ -264,14 +267,13 @@ void FollowerJob::Impl::follow(Recorder& r) const {
   const std::array buffers = {triangles.storage_range(use_texels),
                               nodes.storage_range(use_texels),
                               lists.range(),
-                              rests.range(),
+                              rests.storage_range(use_texels),
                               states.range(),
                               found.range(),
                               sides.range(),
                               unresolved.range(),
                               balls.range(),
                               ball_states.range()};
-  const std::array texels = {triangle_texels, node_texels};
   const auto run = [&](const ProgramKey& key) {
     r.dispatch(key, buffers, texels, bytes_of(constants), ball_count);
     r.barrier();

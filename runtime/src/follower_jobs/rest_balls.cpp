@@ -34,30 +34,33 @@ gpu::vec4 to_floats(const Point& p, double w) {
   return {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]), static_cast<float>(w)};
 }
 
-gpu::FollowContact packed_contact(const MovingSurface& surface, const BallContact& contact,
-                                  std::span<const std::uint32_t> places, double scale) {
+/// FollowState::carried_a of a contact.
+gpu::vec4 carried(const MovingSurface& surface, const BallContact& contact, double scale) {
   const Corners3 corners = surface.corners(contact.on.triangle);
   const Point inward = surface.inward_normal(contact.on.triangle);
   const Point& d = contact.towards_centre;
   const Point products = {scale * dot(d, corners[1] - corners[0]), scale * dot(d, corners[2] - corners[0]),
                           dot(d, inward)};
-  return {to_floats(d, 0),
-          to_floats(products, dot(inward, inward) > 0 ? 1 : 0),
-          places[contact.on.triangle],
-          static_cast<float>(contact.on.v),
-          static_cast<float>(contact.on.w),
-          0};
+  return to_floats(products, dot(inward, inward) > 0 ? 1 : 0);
 }
 
 gpu::FollowRest packed_rest(const MovingSurface& surface, const TrackedBall& tracked,
                             std::span<const std::uint32_t> places, double scale) {
-  const double through = radius_through(surface.at(tracked.a.on), tracked.a.towards_centre, surface.at(tracked.b.on));
+  const BallContact &a = tracked.a, &b = tracked.b;
+  const double through = radius_through(surface.at(a.on), a.towards_centre, surface.at(b.on));
   gpu::FollowRest rest = {};
-  rest.followed.a = packed_contact(surface, tracked.a, places, scale);
-  rest.followed.b = packed_contact(surface, tracked.b, places, scale);
-  rest.followed.ball = to_floats(scale * tracked.ball.centre, scale * tracked.ball.radius);
+  gpu::FollowedBall& followed = rest.state.followed;
+  followed.towards_a = to_floats(a.towards_centre, a.on.v);
+  followed.towards_b = to_floats(b.towards_centre, b.on.v);
+  followed.triangle_a = places[a.on.triangle];
+  followed.triangle_b = places[b.on.triangle];
+  followed.w_a = static_cast<float>(a.on.w);
+  followed.w_b = static_cast<float>(b.on.w);
+  followed.ball = to_floats(scale * tracked.ball.centre, scale * tracked.ball.radius);
+  rest.state.carried_a = carried(surface, a, scale);
+  rest.state.carried_b = carried(surface, b, scale);
   rest.through = static_cast<float>(std::min(scale * through, 1e8));
-  rest.turn = static_cast<float>(dot(tracked.a.towards_centre, tracked.b.towards_centre));
+  rest.turn = static_cast<float>(dot(a.towards_centre, b.towards_centre));
   return rest;
 }
 

@@ -62,10 +62,10 @@ float proved_radius() {
 }
 
 // At a contact, from the radius through another one, but from no more than `most`.
-void start_at(FollowContact contact, FollowContact other, float most) {
+void start_at(Contact contact, Contact other, float most) {
   is_fixed = false;
   at = point_of(contact);
-  towards = contact.towards.xyz;
+  towards = contact.towards;
   slack = kContactSlack * greatest_length();
   touching = point_of(other);
   touching_triangle = 0xffffffffu;
@@ -73,15 +73,15 @@ void start_at(FollowContact contact, FollowContact other, float most) {
 }
 
 // After a search, as a ball with its contacts; `other` as at its start.
-FollowedBall searched_ball(FollowContact contact, FollowContact other) {
+TrackedBall searched_ball(Contact contact, Contact other) {
   float proved = proved_radius();
   vec3 from_other = unit_or_zero(centre - touching);
   bool is_new = touching_triangle != 0xffffffffu;
-  FollowContact second = other;
+  Contact second = other;
   if (is_new) second = contact_at(touching, touching_triangle, from_other);
-  second.towards.xyz = dot(from_other, from_other) > 0.5 ? from_other : towards;
+  second.towards = dot(from_other, from_other) > 0.5 ? from_other : towards;
   if (!(proved > 0.0)) second = other;
-  return FollowedBall(contact, second, vec4(centre, proved));
+  return TrackedBall(contact, second, vec4(centre, proved));
 }
 
 #endif

@@ -10,29 +10,37 @@
 namespace medial_vk::gpu {
 #endif
 
-// A contact of a ball. `carried`: the products of `towards` with the edges from corner 0 and with the inward normal of
-// the triangle, in the frame that it belongs to; w: 1 if the triangle had an area then.
-struct FollowContact {
-  vec4 towards;  // unit vector to the centre; w: unused
-  vec4 carried;
-  uint triangle;  // position in the order of the tree
-  float v, w;     // shares of the edges from corner 0 to the corners 1 and 2
-  uint unused;
+// A ball and its contacts a and b. `towards`: the unit vector from a contact to the centre; w: the share of the edge from
+// corner 0 to corner 1 of its triangle, v. A triangle is a position in the order of the tree.
+struct FollowedBall {
+  vec4 towards_a, towards_b;
+  uint triangle_a;
+  float w_a;  // the share of the edge from corner 0 to corner 2
+  uint triangle_b;
+  float w_b;
+  vec4 ball;  // w: radius; 0: lost
 };
 
-struct FollowedBall {
-  FollowContact a, b;
-  vec4 ball;  // w: radius; 0: lost
+// `carried`: the products of `towards` with the edges from corner 0 and with the inward normal of the triangle, in the
+// frame that they belong to; w: 1 if the triangle had an area then.
+struct FollowState {
+  FollowedBall followed;
+  vec4 carried_a, carried_b;
 };
 
 // A ball in the rest pose.
 struct FollowRest {
-  FollowedBall followed;
+  FollowState state;
   float through;  // radius of the ball that touches at a and passes through b
   float turn;     // cosine of the angle between the directions at both
   uint parent;    // a ball that overlaps it; itself: none
   uint index;     // its place in the order of the caller
 };
+
+// Their sizes, in vectors.
+MEDIAL_VK_GPU_CONSTANT kFollowedVectors = 4u;
+MEDIAL_VK_GPU_CONSTANT kStateVectors = 6u;
+MEDIAL_VK_GPU_CONSTANT kRestVectors = 7u;
 
 // Words of the lists; three lists of as many words as there are balls follow from kFollowLists on. Lists have three group
 // counts each, with kFollowGroup entries for a workgroup.
