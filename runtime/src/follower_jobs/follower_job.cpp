@@ -65,9 +65,10 @@ bool can_walk_together(const ContextImpl& context) {
          (context.subgroup.supportedOperations & VK_SUBGROUP_FEATURE_BALLOT_BIT) != 0;
 }
 
-std::vector<std::uint32_t> places_of(const Bvh& bvh) {
-  std::vector<std::uint32_t> places(bvh.order().size());
-  for (std::uint32_t i = 0; i < places.size(); ++i) places[bvh.order()[i]] = i;
+/// Of the triangles in the order of a tree.
+std::vector<std::uint32_t> places_in(std::span<const std::uint32_t> order) {
+  std::vector<std::uint32_t> places(order.size());
+  for (std::uint32_t i = 0; i < places.size(); ++i) places[order[i]] = i;
   return places;
 }
 
@@ -93,8 +94,8 @@ struct FollowerJob::Impl {
   Buffer vertices, indices, levels, triangles, nodes, lists, rests, states, found, sides, unresolved, balls,
       ball_states;
   std::uint32_t vertex_count = 0, triangle_count = 0, ball_count = 0, place_count = 0;
-  bool walk_together = false;  // eight balls a walk
-  bool use_texels = true;      // triangles and nodes are not too large for views
+  bool walk_together = false;               // eight balls a walk
+  bool use_texels = true;                   // triangles and nodes are not too large for views
   std::array<VkBufferView, 5> texels = {};  // of triangles, nodes, rests, states, found
   std::vector<std::uint32_t> level_sizes;
   Keys keys;
@@ -164,8 +165,8 @@ Status FollowerJob::Impl::make_buffers() {
 
 /// Of a buffer that is never read, where kernels read storage.
 Status FollowerJob::Impl::make_views() {
-  const std::size_t most = std::max({std::size_t{4} * triangle_count, std::size_t{2} * place_count,
-                                     std::size_t{gpu::kRestVectors} * ball_count});
+  const std::size_t most = std::max(
+      {std::size_t{4} * triangle_count, std::size_t{2} * place_count, std::size_t{gpu::kRestVectors} * ball_count});
   use_texels = most <= context.limits.maxTexelBufferElements;
   Buffer unused;
   if (!use_texels) {
@@ -205,14 +206,13 @@ void FollowerJob::Impl::make_keys() {
 
 Status FollowerJob::Impl::fill(const IndexedMesh& rest, const ThreadedTree& tree,
                                const std::vector<gpu::FollowRest>& at_rest) {
-  const Bvh& bvh = rest.bvh();
   std::vector<std::uint32_t> corners;
-  corners.reserve(3 * bvh.order().size());
-  for (const std::uint32_t triangle : bvh.order()) {
+  corners.reserve(3 * tree.order.size());
+  for (const std::uint32_t triangle : tree.order) {
     for (const std::uint32_t corner : rest.view().triangles[triangle]) corners.push_back(corner);
   }
   vertex_count = static_cast<std::uint32_t>(rest.view().vertices.size());
-  triangle_count = static_cast<std::uint32_t>(bvh.order().size());
+  triangle_count = static_cast<std::uint32_t>(tree.order.size());
   ball_count = static_cast<std::uint32_t>(at_rest.size());
   place_count = tree.place_count();
   walk_together = can_walk_together(context) && tree.depth <= gpu::kMostFollowDepth;
@@ -326,11 +326,12 @@ Result<FollowerJob> FollowerJob::create(Context& context, const IndexedMesh& res
     on_host.object_angle = options.object_angle;
     on_host.threads = options.threads;
     if (Result<Follower> tested = Follower::create(rest, balls, on_host); !tested) return tested.error();
+    const ThreadedTree tree = make_threaded_tree(mesh, rest.bvh());
     impl->scale = static_cast<float>(std::ldexp(1.0, -std::ilogb(rest.longest_side())));
     Result<std::vector<gpu::FollowRest>> at_rest =
-        make_rest_balls(surface.value(), balls, places_of(rest.bvh()), double{impl->scale}, options.threads);
+        make_rest_balls(surface.value(), balls, places_in(tree.order), double{impl->scale}, options.threads);
     if (!at_rest) return at_rest.error();
-    if (Status status = impl->fill(rest, make_threaded_tree(rest.bvh()), at_rest.value()); !status) {
+    if (Status status = impl->fill(rest, tree, at_rest.value()); !status) {
       return status.error();
     }
     const auto rehearse = [&](Recorder& r) { return impl->append(r, impl->frames.front()); };

@@ -4,6 +4,8 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <limits>
+#include <span>
 #include <utility>
 
 #include "base/point_ops.h"
@@ -11,15 +13,112 @@
 namespace medial_vk {
 namespace {
 
-/// A node of the tree of the host, or a part of the triangles of a leaf that has too many.
+constexpr std::uint32_t kMostInBlock = gpu::kMostFollowLeaf * gpu::kFollowArity;
+
+/// Triangles that follow each other: those below a node of the host's tree, a part of one of its leaves, or a leaf.
 struct Part {
-  std::uint32_t node;          // of the host
-  std::uint32_t first, count;  // of the triangles; a count of 0: the two children of the node
+  std::uint32_t node;  // of the host
+  std::uint32_t first, count;
+};
+
+struct Box {
+  Point lower = {1, 1, 1}, upper = {0, 0, 0};  // empty at first
+
+  void add(const Box& other) {
+    const bool is_empty = lower[0] > upper[0];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      lower[axis] = is_empty ? other.lower[axis] : std::min(lower[axis], other.lower[axis]);
+      upper[axis] = is_empty ? other.upper[axis] : std::max(upper[axis], other.upper[axis]);
+    }
+  }
+  double area() const {
+    const Point side = upper - lower;
+    return side[0] * side[1] + side[1] * side[2] + side[2] * side[0];
+  }
+};
+
+/// Cuts the triangles of a block into leaves that are full, but for one.
+class BlockCutter {
+ public:
+  BlockCutter(const MeshView& mesh, std::span<std::uint32_t> order) : mesh_(mesh), order_(order) {}
+
+  /// Appends the leaves.
+  void cut(const Part& part, std::vector<Part>& leaves) const {
+    if (part.count <= gpu::kMostFollowLeaf) return leaves.push_back(part);
+    const std::span<std::uint32_t> order = order_.subspan(part.first, part.count);
+    Cut best;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      sort(order, axis);
+      const Cut found = best_cut(order, axis);
+      if (found.cost < best.cost) best = found;
+    }
+    sort(order, best.axis);
+    const auto left = static_cast<std::uint32_t>(best.left);
+    cut({part.node, part.first, left}, leaves);
+    cut({part.node, part.first + left, part.count - left}, leaves);
+  }
+
+ private:
+  struct Cut {
+    double cost = std::numeric_limits<double>::infinity();
+    std::size_t axis = 0, left = gpu::kMostFollowLeaf;
+  };
+
+  Box box_of(std::uint32_t triangle) const {
+    Box box;
+    for (const std::uint32_t corner : mesh_.triangles[triangle]) {
+      box.add({mesh_.vertices[corner], mesh_.vertices[corner]});
+    }
+    return box;
+  }
+
+  void sort(std::span<std::uint32_t> order, std::size_t axis) const {
+    std::ranges::sort(order, {}, [&](std::uint32_t triangle) {
+      const Box box = box_of(triangle);
+      return std::pair(box.lower[axis] + box.upper[axis], triangle);
+    });
+  }
+
+  /// By the areas of both boxes times the numbers of leaves, one of which is that of full leaves.
+  Cut best_cut(std::span<const std::uint32_t> order, std::size_t axis) const {
+    constexpr std::size_t kFull = gpu::kMostFollowLeaf;
+    const std::size_t count = order.size();
+    std::vector<double> left_areas(count), right_areas(count);  // with the triangle; from the triangle on
+    Box left, right;
+    for (std::size_t i = 0; i < count; ++i) {
+      left.add(box_of(order[i]));
+      right.add(box_of(order[count - 1 - i]));
+      left_areas[i] = left.area();
+      right_areas[count - 1 - i] = right.area();
+    }
+    Cut best;
+    for (std::size_t i = 1; i < count; ++i) {
+      if (i % kFull != 0 && (count - i) % kFull != 0) continue;
+      const std::size_t left_leaves = (i + kFull - 1) / kFull, right_leaves = (count - i + kFull - 1) / kFull;
+      const double cost =
+          left_areas[i - 1] * static_cast<double>(left_leaves) + right_areas[i] * static_cast<double>(right_leaves);
+      if (cost < best.cost) best = {cost, axis, i};
+    }
+    return best;
+  }
+
+  const MeshView& mesh_;
+  std::span<std::uint32_t> order_;
 };
 
 class TreeThreader {
  public:
-  explicit TreeThreader(const Bvh& bvh) : bvh_(bvh) {}
+  TreeThreader(const MeshView& mesh, const Bvh& bvh) : mesh_(mesh), bvh_(bvh), below_(bvh.nodes().size()) {
+    tree_.order.assign(bvh.order().begin(), bvh.order().end());
+    // Children come after their node.
+    for (auto node = static_cast<std::uint32_t>(below_.size()); node-- > 0;) {
+      const BvhNode& of = bvh.nodes()[node];
+      below_[node] = {node, of.first, of.count};
+      if (of.count != 0) continue;
+      const Part &a = below_[of.first], &b = below_[of.first + 1];
+      below_[node] = {node, std::min(a.first, b.first), a.count + b.count};
+    }
+  }
 
   ThreadedTree finish() {
     add_nodes();
@@ -37,32 +136,37 @@ class TreeThreader {
     std::uint32_t depth;
   };
 
-  Part part_of(std::uint32_t node) const { return {node, bvh_.nodes()[node].first, bvh_.nodes()[node].count}; }
-  bool is_leaf(const Part& part) const { return part.count != 0 && part.count <= gpu::kMostFollowLeaf; }
+  static bool is_leaf(const Part& part) { return part.count <= gpu::kMostFollowLeaf; }
 
   std::array<Part, 2> halves_of(const Part& part) const {
-    if (part.count == 0) return {part_of(part.first), part_of(part.first + 1)};
+    const BvhNode& node = bvh_.nodes()[part.node];
+    if (node.count == 0) return {below_[node.first], below_[node.first + 1]};
     const std::uint32_t half = std::bit_ceil(part.count) / 2;
     return {Part{part.node, part.first, half}, Part{part.node, part.first + half, part.count - half}};
   }
 
   double size_of(const Part& part) const {
     const BvhBox& box = bvh_.nodes()[part.node].box;
-    const Point side = box.upper - box.lower;
-    return is_leaf(part) ? -1 : side[0] * side[1] + side[1] * side[2] + side[2] * side[0];
+    return part.count <= kMostInBlock ? -1 : Box{box.lower, box.upper}.area();
   }
 
-  /// Up to kFollowArity parts, of which the largest are divided; those that are no leaves come first.
-  std::vector<Part> divided(const Part& whole) const {
-    std::vector<Part> parts = {whole};
+  /// Up to kFollowArity parts; those that are no leaves come first. A block is cut into its leaves, and of others the
+  /// largest parts are divided.
+  std::vector<Part> divided(const Part& whole) {
+    std::vector<Part> parts;
+    if (whole.count <= kMostInBlock) {
+      BlockCutter(mesh_, tree_.order).cut(whole, parts);
+      return parts;
+    }
+    parts.push_back(whole);
     while (parts.size() < gpu::kFollowArity) {
       const auto largest = std::ranges::max_element(parts, {}, [&](const Part& part) { return size_of(part); });
-      if (is_leaf(*largest)) break;
+      if (largest->count <= kMostInBlock) break;
       const std::array<Part, 2> halves = halves_of(*largest);
       *largest = halves[0];
       parts.push_back(halves[1]);
     }
-    std::ranges::stable_partition(parts, [&](const Part& part) { return !is_leaf(part); });
+    std::ranges::stable_partition(parts, [](const Part& part) { return !is_leaf(part); });
     return parts;
   }
 
@@ -71,7 +175,7 @@ class TreeThreader {
   /// Breadth first, so that nodes below one node follow each other. The first node has a single place, for the box
   /// around all triangles.
   void add_nodes() {
-    waiting_.push_back({{part_of(0)}, kNone, 0});
+    waiting_.push_back({{below_[0]}, kNone, 0});
     for (std::size_t node = 0; node < waiting_.size(); ++node) {
       const Waiting now = std::move(waiting_[node]);
       tree_.depth = std::max(tree_.depth, now.depth);
@@ -96,7 +200,7 @@ class TreeThreader {
     const Part& part = of.parts[k];
     const bool is_root = of.place == kNone, is_end = is_leaf(part) && !is_root;
     if (!is_end) {
-      waiting_.push_back({is_leaf(part) ? std::vector<Part>{part} : divided(part), place, of.depth + 1});
+      waiting_.push_back({divided(part), place, of.depth + 1});
     }
     const auto below = static_cast<std::uint32_t>(waiting_.size() - 1);
     tree_.places.push_back({0, 0, 0, is_end ? part.count << gpu::kFollowLeafBits | part.first : below});
@@ -124,7 +228,9 @@ class TreeThreader {
     for (const std::uint32_t place : used_) tree_.levels[next[heights[place]]++] = place;
   }
 
+  const MeshView& mesh_;
   const Bvh& bvh_;
+  std::vector<Part> below_;  // of each node of the host
   ThreadedTree tree_;
   std::vector<Waiting> waiting_;     // by node
   std::vector<std::uint32_t> used_;  // places
@@ -132,6 +238,6 @@ class TreeThreader {
 
 }  // namespace
 
-ThreadedTree make_threaded_tree(const Bvh& bvh) { return TreeThreader(bvh).finish(); }
+ThreadedTree make_threaded_tree(const MeshView& mesh, const Bvh& bvh) { return TreeThreader(mesh, bvh).finish(); }
 
 }  // namespace medial_vk

@@ -1,5 +1,5 @@
-// A tree over triangles with eight children a node, as kernels of balls that follow a mesh walk it: eight balls together
-// with a node at a time, or one ball box by box, without a stack.
+// A tree over triangles with eight children a node, as kernels of balls that follow a mesh walk it: eight balls
+// together with a node at a time, or one ball box by box, without a stack.
 #pragma once
 
 #include <cstdint>
@@ -7,10 +7,13 @@
 
 #include "follow_types.h"
 #include "medial_vk/bvh.h"
+#include "medial_vk/mesh_view.h"
 
 namespace medial_vk {
 
 struct ThreadedTree {
+  /// The order of the triangles: indices of the mesh, leaf by leaf.
+  std::vector<std::uint32_t> order;
   /// Two for each place of a child (shaders/shared/following/frame.glsl), kFollowArity places a node; without boxes,
   /// but those of unused places are empty.
   std::vector<gpu::uvec4> places;
@@ -24,7 +27,8 @@ struct ThreadedTree {
   std::uint32_t places_of(std::uint32_t level) const { return levels[level + 1] - levels[level]; }
 };
 
-/// The nodes of `bvh`; triangles are those of its leaf order. Precondition: less than 2^24 of them.
-ThreadedTree make_threaded_tree(const Bvh& bvh);
+/// From `bvh`, of that mesh, down to its parts of at most 64 triangles; below, one node with full leaves for each part.
+/// Precondition: less than 2^24 triangles.
+ThreadedTree make_threaded_tree(const MeshView& mesh, const Bvh& bvh);
 
 }  // namespace medial_vk
