@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -27,6 +28,14 @@ namespace {
 
 static_assert(sizeof(RecordedVertex) == 12);
 static_assert(sizeof(RecordedBall) == sizeof(gpu::vec4));
+// Kernels read and write these vector by vector (contacts.glsl).
+static_assert(sizeof(gpu::FollowedBall) == gpu::kFollowedVectors * sizeof(gpu::vec4));
+static_assert(sizeof(gpu::FollowState) == gpu::kStateVectors * sizeof(gpu::vec4));
+static_assert(sizeof(gpu::FollowRest) == gpu::kRestVectors * sizeof(gpu::vec4));
+static_assert(offsetof(gpu::FollowedBall, triangle_a) == 2 * sizeof(gpu::vec4));
+static_assert(offsetof(gpu::FollowedBall, ball) == 3 * sizeof(gpu::vec4));
+static_assert(offsetof(gpu::FollowState, carried_a) == 4 * sizeof(gpu::vec4));
+static_assert(offsetof(gpu::FollowRest, through) == 6 * sizeof(gpu::vec4));
 static_assert(static_cast<std::uint32_t>(FollowState::kMedial) == gpu::kFollowMedial);
 static_assert(static_cast<std::uint32_t>(FollowState::kFlat) == gpu::kFollowFlat);
 static_assert(static_cast<std::uint32_t>(FollowState::kShrunk) == gpu::kFollowShrunk);
@@ -61,8 +70,7 @@ constexpr std::array<std::uint32_t, gpu::kFollowLists> kEmptyLists = {0, 0, 0, 0
 
 /// True if eight neighbouring invocations are a subgroup of their own.
 bool can_walk_together(const ContextImpl& context) {
-  return context.has_lockstep_lanes && context.subgroup.subgroupSize == 8 &&
-         (context.subgroup.supportedOperations & VK_SUBGROUP_FEATURE_BALLOT_BIT) != 0;
+  return context.has_lockstep_lanes && context.subgroup.subgroupSize == 8;
 }
 
 /// Of the triangles in the order of a tree.
@@ -105,7 +113,9 @@ struct FollowerJob::Impl {
   bool has_vertices = false;  // its sequence begins with a copy
   bool from_rest = true;      // its sequence follows the rest pose
 
-  Status check_sizes(std::size_t all_triangles, std::size_t all_balls, std::size_t all_vertices) const;
+  /// Error: kOutOfMemory, if `given` of what has this size are more than a buffer takes, or than `most`.
+  Status check_size(std::size_t given, const char* what, std::size_t bytes, std::size_t most = SIZE_MAX) const;
+  Status check_sizes(const MeshView& mesh, std::size_t all_balls) const;
   Status fill(const IndexedMesh& rest, const ThreadedTree& tree, const std::vector<gpu::FollowRest>& at_rest);
   Status make_buffers();
   Status make_views();
@@ -115,22 +125,21 @@ struct FollowerJob::Impl {
   void follow(Recorder& r) const;
 };
 
-Status FollowerJob::Impl::check_sizes(std::size_t all_triangles, std::size_t all_balls,
-                                      std::size_t all_vertices) const {
-  const std::size_t limit = context.limits.maxStorageBufferRange;
-  const auto refuse = [](std::size_t given, const char* what, std::size_t most) {
-    return Error{ErrorCode::kOutOfMemory, "balls that follow a mesh on this device: there are " +
-                                              std::to_string(given) + " " + what + ", it takes " +
-                                              std::to_string(most)};
-  };
-  // Four vectors for each triangle are more than its two nodes or less.
-  const std::size_t most_triangles = std::min(kMostTriangles, limit / (4 * sizeof(gpu::vec4)));
-  if (all_triangles > most_triangles) return refuse(all_triangles, "triangles", most_triangles);
-  const std::size_t most_balls = limit / sizeof(gpu::FollowRest);
-  if (all_balls > most_balls) return refuse(all_balls, "balls", most_balls);
-  const std::size_t most_vertices = limit / sizeof(RecordedVertex);
-  if (all_vertices > most_vertices) return refuse(all_vertices, "vertices", most_vertices);
-  return {};
+Status FollowerJob::Impl::check_size(std::size_t given, const char* what, std::size_t bytes, std::size_t most) const {
+  most = std::min<std::size_t>(most, context.limits.maxStorageBufferRange / bytes);
+  if (given <= most) return {};
+  return Error{ErrorCode::kOutOfMemory, "balls that follow a mesh on this device: there are " + std::to_string(given) +
+                                            " " + what + ", it takes " + std::to_string(most)};
+}
+
+Status FollowerJob::Impl::check_sizes(const MeshView& mesh, std::size_t all_balls) const {
+  // Workgroups over a list of balls are in one row.
+  const std::size_t most_balls = std::size_t{kWorkgroupSize} * context.limits.maxComputeWorkGroupCount[0];
+  if (Status status = check_size(mesh.triangles.size(), "triangles", 4 * sizeof(gpu::vec4), kMostTriangles); !status) {
+    return status;
+  }
+  if (Status status = check_size(all_balls, "balls", sizeof(gpu::FollowRest), most_balls); !status) return status;
+  return check_size(mesh.vertices.size(), "vertices", sizeof(RecordedVertex));
 }
 
 Status FollowerJob::Impl::make_buffers() {
@@ -314,9 +323,7 @@ Result<FollowerJob> FollowerJob::create(Context& context, const IndexedMesh& res
   return catch_out_of_memory("preparing a job", [&]() -> Result<FollowerJob> {
     auto impl = std::make_unique<Impl>(Internals::of(context), options);
     const MeshView& mesh = rest.view();
-    if (Status fits = impl->check_sizes(mesh.triangles.size(), balls.size(), mesh.vertices.size()); !fits) {
-      return fits.error();
-    }
+    if (Status fits = impl->check_sizes(mesh, balls.size()); !fits) return fits.error();
     Result<MovingSurface> surface = MovingSurface::build(rest);
     if (!surface) return surface.error();
     if (Status status = check_mesh(rest, surface.value()); !status) return status.error();
@@ -327,6 +334,9 @@ Result<FollowerJob> FollowerJob::create(Context& context, const IndexedMesh& res
     on_host.threads = options.threads;
     if (Result<Follower> tested = Follower::create(rest, balls, on_host); !tested) return tested.error();
     const ThreadedTree tree = make_threaded_tree(mesh, rest.bvh());
+    if (Status fits = impl->check_size(tree.place_count(), "places in a tree", 2 * sizeof(gpu::vec4)); !fits) {
+      return fits.error();
+    }
     impl->scale = static_cast<float>(std::ldexp(1.0, -std::ilogb(rest.longest_side())));
     Result<std::vector<gpu::FollowRest>> at_rest =
         make_rest_balls(surface.value(), balls, places_in(tree.order), double{impl->scale}, options.threads);

@@ -3,7 +3,6 @@
 // to the lanes of the balls. What happens to a ball does not depend on the others. Included by search.glsl.
 #ifndef MEDIAL_VK_FOLLOWING_WALK_TOGETHER_GLSL
 #define MEDIAL_VK_FOLLOWING_WALK_TOGETHER_GLSL
-#extension GL_KHR_shader_subgroup_ballot : require
 
 // A ball that has met more children and tested more triangles, in all searches, is given up. The eight together then
 // take at most 2 * 8 * kMostWork turns of loops, of the 65,535 after which lavapipe ends all loops.
@@ -13,7 +12,8 @@ const uint kMostRepeats = 8u;  // of a test
 uint work = 0u;
 
 uint own_lane() { return gl_SubgroupInvocationID & 7u; }
-uint lanes_with(bool flag) { return subgroupBallot(flag).x & 255u; }
+// A bit for each lane. (On lavapipe a ballot is a loop over the lanes.)
+uint lanes_with(bool flag) { return or_of_lanes(flag ? 1u << own_lane() : 0u); }
 
 // A node that is open: of a lane's child, the link and the balls that meet it.
 uint link;
@@ -60,9 +60,10 @@ uint open_node(uint node, bool is_wanted) {
   }
   link = lower.w;
   work += count_own(balls_here);
-  uint met = lanes_with(balls_here != 0u), leaves = lanes_with(link >= 1u << kFollowLeafBits);
-  waiting_leaves = met & leaves;
-  uint nodes_met = met & ~leaves;
+  uint own_bit = link >= 1u << kFollowLeafBits ? 1u << own_lane() : 256u << own_lane();
+  uint met = or_of_lanes(balls_here != 0u ? own_bit : 0u);
+  waiting_leaves = met & 255u;
+  uint nodes_met = met >> 8;
   bool is_below = nodes_met != 0u;
   uint top = is_below ? from_lane(link, 0u) << 8 | nodes_met : pending_at(max(level, 1u) - 1u);
   level += is_below ? 1u : 0u;
