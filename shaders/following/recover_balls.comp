@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
 // For lost balls: the greatest ball at one of their contacts, straight behind that triangle, if one is inside.
-#define SEARCH_ROUNDS 1000u
+#define SEARCH_ROUNDS 640u
 #define RAY_ROUNDS 1900u
 #include "following/frame.glsl"
 #include "following/contacts.glsl"

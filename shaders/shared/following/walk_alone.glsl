@@ -6,9 +6,9 @@
 // invocations beside it makes it. A round is at most kDescents boxes, kMostTests tests of triangles, and the ends of the
 // three loops.
 const uint kDescents = 8u;
-const uint kMostTests = 16u;  // in a leaf, of at most kMostFollowLeaf triangles
+const uint kMostTests = 32u;  // in a leaf, of at most kMostFollowLeaf triangles
 #ifndef SEARCH_ROUNDS
-#define SEARCH_ROUNDS 2300u
+#define SEARCH_ROUNDS 1500u
 #endif
 
 uint rounds = 0u;  // of all searches
