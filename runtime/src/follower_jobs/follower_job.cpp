@@ -73,13 +73,6 @@ bool can_walk_together(const ContextImpl& context) {
   return context.has_lockstep_lanes && context.subgroup.subgroupSize == 8;
 }
 
-/// Of the triangles in the order of a tree.
-std::vector<std::uint32_t> places_in(std::span<const std::uint32_t> order) {
-  std::vector<std::uint32_t> places(order.size());
-  for (std::uint32_t i = 0; i < places.size(); ++i) places[order[i]] = i;
-  return places;
-}
-
 }  // namespace
 
 struct FollowerJob::Impl {
@@ -339,7 +332,7 @@ Result<FollowerJob> FollowerJob::create(Context& context, const IndexedMesh& res
     }
     impl->scale = static_cast<float>(std::ldexp(1.0, -std::ilogb(rest.longest_side())));
     Result<std::vector<gpu::FollowRest>> at_rest =
-        make_rest_balls(surface.value(), balls, places_in(tree.order), double{impl->scale}, options.threads);
+        make_rest_balls(surface.value(), balls, positions_in(tree), double{impl->scale}, options.threads);
     if (!at_rest) return at_rest.error();
     if (Status status = impl->fill(rest, tree, at_rest.value()); !status) {
       return status.error();

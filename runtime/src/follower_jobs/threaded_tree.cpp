@@ -166,7 +166,7 @@ class TreeThreader {
       *largest = halves[0];
       parts.push_back(halves[1]);
     }
-    std::ranges::stable_partition(parts, [](const Part& part) { return !is_leaf(part); });
+    std::stable_partition(parts.begin(), parts.end(), [](const Part& part) { return !is_leaf(part); });
     return parts;
   }
 
@@ -239,5 +239,11 @@ class TreeThreader {
 }  // namespace
 
 ThreadedTree make_threaded_tree(const MeshView& mesh, const Bvh& bvh) { return TreeThreader(mesh, bvh).finish(); }
+
+std::vector<std::uint32_t> positions_in(const ThreadedTree& tree) {
+  std::vector<std::uint32_t> positions(tree.order.size());
+  for (std::uint32_t i = 0; i < positions.size(); ++i) positions[tree.order[i]] = i;
+  return positions;
+}
 
 }  // namespace medial_vk

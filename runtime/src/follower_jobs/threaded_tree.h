@@ -31,4 +31,7 @@ struct ThreadedTree {
 /// Precondition: less than 2^24 triangles.
 ThreadedTree make_threaded_tree(const MeshView& mesh, const Bvh& bvh);
 
+/// Of the triangles in its order.
+std::vector<std::uint32_t> positions_in(const ThreadedTree& tree);
+
 }  // namespace medial_vk
