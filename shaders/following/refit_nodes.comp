@@ -1,12 +1,13 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// The boxes of one level of the tree, an invocation for each place of a child; or of several levels, the upper ones, by a
-// single workgroup. Level 0 are the leaves, and all places below a place are in lower levels. Boxes are exact.
+// The boxes of the leaves, level 0 of the tree, or of another level, an invocation for each place of a child; or of several
+// levels, the upper ones, by a single workgroup. All places below a place are in lower levels. Boxes are exact.
 #include "follow_types.h"
 #include "lanes/workgroup_index.glsl"
 
 layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const bool kSeveralLevels = false;
+layout(constant_id = 1) const bool kLeaves = false;
+layout(constant_id = 2) const bool kSeveralLevels = false;
 layout(push_constant) uniform Push { RefitConstants push; };
 layout(set = 0, binding = 0) readonly buffer Triangles { vec4 triangles[]; };
 layout(set = 0, binding = 1) coherent buffer Nodes { uvec4 nodes[]; };
@@ -14,9 +15,8 @@ layout(set = 0, binding = 2) readonly buffer Levels { uint levels[]; };  // wher
 
 void refit(uint place) {
   uint link = nodes[2u * place].w;
-  bool is_leaf = link >= 1u << kFollowLeafBits;
   vec3 lower = vec3(3e38), upper = vec3(-3e38);
-  uint triangle = link & ((1u << kFollowLeafBits) - 1u), end = triangle + (link >> kFollowLeafBits);
+  uint triangle = link & ((1u << kFollowLeafBits) - 1u), end = triangle + (kLeaves ? link >> kFollowLeafBits : 0u);
   while (triangle < end) {
     vec3 a = triangles[4u * triangle].xyz, b = triangles[4u * triangle + 1u].xyz, c = triangles[4u * triangle + 2u].xyz;
     lower = min(lower, min(a, min(b, c)));
@@ -24,7 +24,7 @@ void refit(uint place) {
     ++triangle;
   }
   // Boxes of unused places are empty.
-  uint child = kFollowArity * link, end_child = is_leaf ? 0u : child + kFollowArity;
+  uint child = kFollowArity * link, end_child = kLeaves ? child : child + kFollowArity;
   while (child < end_child) {
     lower = min(lower, uintBitsToFloat(nodes[2u * child].xyz));
     upper = max(upper, uintBitsToFloat(nodes[2u * child + 1u].xyz));

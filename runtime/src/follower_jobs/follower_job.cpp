@@ -78,8 +78,8 @@ bool can_walk_together(const ContextImpl& context) {
 struct FollowerJob::Impl {
   /// Of the dispatches; made once, since their names take memory.
   struct Keys {
-    ProgramKey place_triangles, refit_level, refit_small_levels, follow, prepare_resolve, resolve, follow_again,
-        connect, cast_rays, settle, recover;
+    ProgramKey place_triangles, refit_leaves, refit_level, refit_small_levels, follow, prepare_resolve, resolve,
+        follow_again, connect, cast_rays, settle, recover;
   };
   /// The resources of a recorded sequence, in use until it has finished.
   struct Frame {
@@ -194,8 +194,9 @@ void FollowerJob::Impl::make_keys() {
   const std::string lockstep = walk_together ? "_lockstep" : "";
   constexpr auto kBytes = static_cast<std::uint32_t>(sizeof(gpu::RefitConstants));
   keys.place_triangles = {"place_triangles", 4, 0, kBytes, kWorkgroupSize, {}};
-  keys.refit_level = {"refit_nodes", 3, 0, kBytes, kWorkgroupSize, {0}};
-  keys.refit_small_levels = {"refit_nodes", 3, 0, kBytes, kResolveGroup, {1}};
+  keys.refit_leaves = {"refit_nodes", 3, 0, kBytes, kWorkgroupSize, {1, 0}};
+  keys.refit_level = {"refit_nodes", 3, 0, kBytes, kWorkgroupSize, {0, 0}};
+  keys.refit_small_levels = {"refit_nodes", 3, 0, kBytes, kResolveGroup, {0, 1}};
   keys.follow = of_balls("follow_balls" + lockstep);
   keys.prepare_resolve = {"prepare_resolve", 1, 0, 0, 1, {}};
   keys.resolve = of_balls("resolve_followed", kResolveGroup);
@@ -247,10 +248,10 @@ void FollowerJob::Impl::refit(Recorder& r) const {
   const std::array of_nodes = {triangles.range(), nodes.range(), levels.range()};
   const auto level_count = static_cast<std::uint32_t>(level_sizes.size());
   while (constants.first_level < level_count) {
-    const std::uint32_t places_here = level_sizes[constants.first_level];
-    const bool is_small = places_here <= kSmallLevel;  // and so are those above
-    constants.end_level = is_small ? level_count : constants.first_level + 1;
-    const ProgramKey& key = is_small ? keys.refit_small_levels : keys.refit_level;
+    const std::uint32_t level = constants.first_level, places_here = level_sizes[level];
+    const bool is_small = level != 0 && places_here <= kSmallLevel;  // and so are those above
+    constants.end_level = is_small ? level_count : level + 1;
+    const ProgramKey& key = is_small ? keys.refit_small_levels : level == 0 ? keys.refit_leaves : keys.refit_level;
     r.dispatch(key, of_nodes, {}, bytes_of(constants), is_small ? key.workgroup_size : places_here);
     r.barrier();
     constants.first_level = constants.end_level;
