@@ -4,9 +4,10 @@
 #ifndef MEDIAL_VK_FOLLOWING_WALK_TOGETHER_GLSL
 #define MEDIAL_VK_FOLLOWING_WALK_TOGETHER_GLSL
 
-// A ball that has met more children and tested more triangles, in all searches, is given up. The eight together then
-// take at most 2 * 8 * kMostWork turns of loops, of the 65,535 after which lavapipe ends all loops.
-const uint kMostWork = 4000u;
+// A ball that has met as many children and tested as many triangles, in all searches, is given up, after at most 80 more. A
+// leaf that one ball meets takes up to five turns of loops, a node one, and a test two: the eight balls together take less
+// than the 65,535 after which lavapipe ends all loops.
+const uint kMostWork = 1500u;
 const uint kMostRepeats = 8u;  // of a test
 
 uint work = 0u;
