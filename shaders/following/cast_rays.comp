@@ -8,5 +8,5 @@ void main() {
   uint index = invocation_index();
   if (index >= lists[kFollowRays]) return;
   uint ball = list_entry(kFollowRays, index);
-  sides[ball] = is_inside(found[ball].ball.xyz) ? kFollowInside : kFollowOutside;
+  sides[ball] = is_inside(found_ball(ball).xyz) ? kFollowInside : kFollowOutside;
 }

@@ -6,8 +6,8 @@
 void main() {
   uint ball = invocation_index();
   if (ball >= push.ball_count || is_refused()) return;
-  uint parent = rests[ball].parent;
-  vec4 own = found[ball].ball, other = found[parent].ball;
+  uint parent = last_of_rest(ball).z;
+  vec4 own = found_ball(ball), other = found_ball(parent);
   vec3 between = own.xyz - other.xyz;
   float reach = own.w + other.w;
   const float kCertain = 1.0 - 16.0 * 1.1920929e-7;  // docs/theory.md, "Balls on the device"

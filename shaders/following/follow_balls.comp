@@ -1,6 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
+#extension GL_EXT_control_flow_attributes : enable
 // The first ball that is tried for each one (first_ball.glsl).
+#include "lanes/lanes.glsl"
 #include "following/frame.glsl"
 #include "following/contacts.glsl"
 #include "following/search.glsl"
@@ -8,11 +10,12 @@
 #include "tree_types.h"
 
 void main() {
-  uint ball = invocation_index();
-  if (ball >= push.ball_count || is_refused()) return;
+  bool is_wanted = invocation_index() < push.ball_count && !is_refused();
+  uint ball = min(invocation_index(), push.ball_count - 1u);
   bool of_image = starts_from_rest(ball);
   start_first(ball, of_image);
-  search();
+  search(is_wanted);
+  if (!is_wanted) return;
   if (is_complete) {
     conclude_first(ball, of_image);
   } else {

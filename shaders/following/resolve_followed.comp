@@ -1,5 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
+#extension GL_EXT_control_flow_attributes : enable
 // The balls whose search was too long: a workgroup tests all triangles for one ball. Each invocation shrinks a ball of
 // its own; the least of them has shrunk enough for all.
 #include "following/frame.glsl"
@@ -25,7 +26,7 @@ void main() {
   place_ball();
   uint triangle = lane, repeats = 0u;
   while (triangle < push.triangle_count) {
-    bool again = shrinks_at(triangle, repeats < kMostRepeats);
+    bool again = shrinks_at(load_followed(triangle), triangle, true, repeats < kMostRepeats);
     repeats += again ? 1u : 0u;
     triangle += again ? 0u : gl_WorkGroupSize.x;
   }

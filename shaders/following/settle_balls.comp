@@ -1,6 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : enable
-// The results: balls that are not known to be inside are lost, and listed to be recovered.
+// The results: balls that are not known to be inside are lost, and listed to be recovered. A frame that is refused leaves
+// the states as they are, or makes them those at rest.
 #include "following/frame.glsl"
 #include "following/contacts.glsl"
 #include "following/report.glsl"
@@ -8,25 +9,18 @@
 void main() {
   uint ball = invocation_index();
   if (ball >= push.ball_count) return;
-  if (is_refused()) {
-    FollowedBall last;
-    if (push.from_rest != 0u) {
-      last = rests[ball].followed;
-    } else {
-      last = states[ball];
-    }
-    states[ball] = last;
-    last.ball.w = 0.0;
-    report(ball, last);
-    return;
-  }
-  uint side = sides[ball], links = 0u;
+  bool refused = is_refused();
+  uint side = refused ? kFollowOutside : sides[ball], links = 0u;
   while (side < kFollowOutside) {
     side = sides[side];
     if (++links > kMostFollowLinks) break;
   }
-  FollowedBall now = found[ball];
-  now.ball.w = side == kFollowInside ? now.ball.w : 0.0;
-  settle(ball, now);
-  if (side != kFollowInside) append(kFollowLost, ball);
+  bool is_inside = side == kFollowInside;
+  TrackedBall now = load_found(ball);
+  now.ball.w = is_inside ? now.ball.w : 0.0;
+  report(ball, now);
+  if (!refused) keep_state(ball, now);
+  uint copied = refused && push.from_rest != 0u ? kStateVectors : 0u;
+  for (uint k = 0u; k < copied; ++k) states[kStateVectors * ball + k] = rest_vector(kRestVectors * ball + k);
+  if (!refused && !is_inside) append(kFollowLost, ball);
 }

@@ -150,6 +150,7 @@ TEST_F(PoorDevice, FollowsBallsAsAGoodOneDoes) {
     vulkan().set_profile(profile);
     LentDevice host(open().value());
     Context context = Context::adopt(host.lend()).value();
+    Internals::of(context).has_lockstep_lanes = false;  // on both each ball walks the tree by itself
     FollowerJob job = FollowerJob::create(context, mesh, balls).value();
     ASSERT_TRUE(job.set_vertices(bent).ok());
     const Answer answer = host.record_and_run(job, 16);

@@ -6,13 +6,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/host_memory.h"
-#include "bvh/refined_tree.h"
 #include "device/context_impl.h"
 #include "device_commands/commands.h"
 #include "device_commands/uploads.h"
@@ -28,14 +28,22 @@ namespace {
 
 static_assert(sizeof(RecordedVertex) == 12);
 static_assert(sizeof(RecordedBall) == sizeof(gpu::vec4));
+// Kernels read and write these vector by vector (contacts.glsl).
+static_assert(sizeof(gpu::FollowedBall) == gpu::kFollowedVectors * sizeof(gpu::vec4));
+static_assert(sizeof(gpu::FollowState) == gpu::kStateVectors * sizeof(gpu::vec4));
+static_assert(sizeof(gpu::FollowRest) == gpu::kRestVectors * sizeof(gpu::vec4));
+static_assert(offsetof(gpu::FollowedBall, triangle_a) == 2 * sizeof(gpu::vec4));
+static_assert(offsetof(gpu::FollowedBall, ball) == 3 * sizeof(gpu::vec4));
+static_assert(offsetof(gpu::FollowState, carried_a) == 4 * sizeof(gpu::vec4));
+static_assert(offsetof(gpu::FollowRest, through) == 6 * sizeof(gpu::vec4));
 static_assert(static_cast<std::uint32_t>(FollowState::kMedial) == gpu::kFollowMedial);
 static_assert(static_cast<std::uint32_t>(FollowState::kFlat) == gpu::kFollowFlat);
 static_assert(static_cast<std::uint32_t>(FollowState::kShrunk) == gpu::kFollowShrunk);
 static_assert(static_cast<std::uint32_t>(FollowState::kLost) == gpu::kFollowIsLost);
 
-constexpr std::uint32_t kWorkgroupSize = 64;
+constexpr std::uint32_t kWorkgroupSize = gpu::kFollowGroup;
 constexpr std::uint32_t kResolveGroup = 256;
-/// Levels of the tree with no more nodes are refitted by one workgroup together with all above them.
+/// Levels of the tree with no more places are refitted by one workgroup together with all above them.
 constexpr std::uint32_t kSmallLevel = 512;
 constexpr double kLeastSide = 1e-25, kMostSide = 1e25;
 /// One invocation of 256 tests its share of all triangles within lavapipe's iterations (resolve_followed.comp).
@@ -57,10 +65,12 @@ float squared_turn_at(double object_angle) {
   return static_cast<float>(turn * turn);
 }
 
-std::vector<std::uint32_t> places_of(const Bvh& bvh) {
-  std::vector<std::uint32_t> places(bvh.order().size());
-  for (std::uint32_t i = 0; i < places.size(); ++i) places[bvh.order()[i]] = i;
-  return places;
+/// Words before the lists: nothing is refused, the lists are empty, and so are dispatches over them.
+constexpr std::array<std::uint32_t, gpu::kFollowLists> kEmptyLists = {0, 0, 0, 0, 0, 1, 1, 0, 1, 1, 0, 1, 1};
+
+/// True if eight neighbouring invocations are a subgroup of their own.
+bool can_walk_together(const ContextImpl& context) {
+  return context.has_lockstep_lanes && context.subgroup.subgroupSize == 8;
 }
 
 }  // namespace
@@ -68,8 +78,8 @@ std::vector<std::uint32_t> places_of(const Bvh& bvh) {
 struct FollowerJob::Impl {
   /// Of the dispatches; made once, since their names take memory.
   struct Keys {
-    ProgramKey place_triangles, refit_level, refit_small_levels, follow, prepare_resolve, resolve;
-    std::array<ProgramKey, 5> complete;  // after `resolve`, in this order
+    ProgramKey place_triangles, refit_leaves, refit_level, refit_small_levels, follow, prepare_resolve, resolve,
+        follow_again, connect, cast_rays, settle, recover;
   };
   /// The resources of a recorded sequence, in use until it has finished.
   struct Frame {
@@ -84,9 +94,10 @@ struct FollowerJob::Impl {
   Arena arena;
   Buffer vertices, indices, levels, triangles, nodes, lists, rests, states, found, sides, unresolved, balls,
       ball_states;
-  std::uint32_t vertex_count = 0, triangle_count = 0, ball_count = 0, node_count = 0;
-  bool use_texels = true;  // triangles and nodes are not too large for views
-  VkBufferView triangle_texels = VK_NULL_HANDLE, node_texels = VK_NULL_HANDLE;
+  std::uint32_t vertex_count = 0, triangle_count = 0, ball_count = 0, place_count = 0;
+  bool walk_together = false;               // eight balls a walk
+  bool use_texels = true;                   // triangles and nodes are not too large for views
+  std::array<VkBufferView, 5> texels = {};  // of triangles, nodes, rests, states, found
   std::vector<std::uint32_t> level_sizes;
   Keys keys;
   float scale = 1;
@@ -95,9 +106,10 @@ struct FollowerJob::Impl {
   bool has_vertices = false;  // its sequence begins with a copy
   bool from_rest = true;      // its sequence follows the rest pose
 
-  Status check_sizes(std::size_t all_triangles, std::size_t all_balls, std::size_t all_vertices) const;
-  Status fill(const IndexedMesh& rest, const Bvh& bvh, const ThreadedTree& tree,
-              const std::vector<gpu::FollowRest>& at_rest);
+  /// Error: kOutOfMemory, if `given` of what has this size are more than a buffer takes, or than `most`.
+  Status check_size(std::size_t given, const char* what, std::size_t bytes, std::size_t most = SIZE_MAX) const;
+  Status check_sizes(const MeshView& mesh, std::size_t all_balls) const;
+  Status fill(const IndexedMesh& rest, const ThreadedTree& tree, const std::vector<gpu::FollowRest>& at_rest);
   Status make_buffers();
   Status make_views();
   void make_keys();
@@ -106,22 +118,21 @@ struct FollowerJob::Impl {
   void follow(Recorder& r) const;
 };
 
-Status FollowerJob::Impl::check_sizes(std::size_t all_triangles, std::size_t all_balls,
-                                      std::size_t all_vertices) const {
-  const std::size_t limit = context.limits.maxStorageBufferRange;
-  const auto refuse = [](std::size_t given, const char* what, std::size_t most) {
-    return Error{ErrorCode::kOutOfMemory, "balls that follow a mesh on this device: there are " +
-                                              std::to_string(given) + " " + what + ", it takes " +
-                                              std::to_string(most)};
-  };
-  // Four vectors for each triangle are more than its two nodes or less.
-  const std::size_t most_triangles = std::min(kMostTriangles, limit / (4 * sizeof(gpu::vec4)));
-  if (all_triangles > most_triangles) return refuse(all_triangles, "triangles", most_triangles);
-  const std::size_t most_balls = limit / sizeof(gpu::FollowRest);
-  if (all_balls > most_balls) return refuse(all_balls, "balls", most_balls);
-  const std::size_t most_vertices = limit / sizeof(RecordedVertex);
-  if (all_vertices > most_vertices) return refuse(all_vertices, "vertices", most_vertices);
-  return {};
+Status FollowerJob::Impl::check_size(std::size_t given, const char* what, std::size_t bytes, std::size_t most) const {
+  most = std::min<std::size_t>(most, context.limits.maxStorageBufferRange / bytes);
+  if (given <= most) return {};
+  return Error{ErrorCode::kOutOfMemory, "balls that follow a mesh on this device: there are " + std::to_string(given) +
+                                            " " + what + ", it takes " + std::to_string(most)};
+}
+
+Status FollowerJob::Impl::check_sizes(const MeshView& mesh, std::size_t all_balls) const {
+  // Workgroups over a list of balls are in one row.
+  const std::size_t most_balls = std::size_t{kWorkgroupSize} * context.limits.maxComputeWorkGroupCount[0];
+  if (Status status = check_size(mesh.triangles.size(), "triangles", 4 * sizeof(gpu::vec4), kMostTriangles); !status) {
+    return status;
+  }
+  if (Status status = check_size(all_balls, "balls", sizeof(gpu::FollowRest), most_balls); !status) return status;
+  return check_size(mesh.vertices.size(), "vertices", sizeof(RecordedVertex));
 }
 
 Status FollowerJob::Impl::make_buffers() {
@@ -139,7 +150,7 @@ Status FollowerJob::Impl::make_buffers() {
     return status;
   }
   if (Status status = make((gpu::kFollowLists + 3 * n) * 4, "lists of balls", lists); !status) return status;
-  if (Status status = make(n * sizeof(gpu::FollowedBall), "states of balls", states); !status) return status;
+  if (Status status = make(n * sizeof(gpu::FollowState), "states of balls", states); !status) return status;
   if (Status status = make(n * sizeof(gpu::FollowedBall), "followed balls", found); !status) return status;
   if (Status status = make(n * 4, "sides of balls", sides); !status) return status;
   if (Status status = make((gpu::kUnresolvedFirst + n) * 4, "unresolved balls", unresolved); !status) return status;
@@ -156,51 +167,59 @@ Status FollowerJob::Impl::make_buffers() {
 
 /// Of a buffer that is never read, where kernels read storage.
 Status FollowerJob::Impl::make_views() {
-  use_texels = std::max(4 * triangle_count, 2 * node_count) <= context.limits.maxTexelBufferElements;
+  const std::size_t most = std::max(
+      {std::size_t{4} * triangle_count, std::size_t{2} * place_count, std::size_t{gpu::kRestVectors} * ball_count});
+  use_texels = most <= context.limits.maxTexelBufferElements;
   Buffer unused;
   if (!use_texels) {
     Result<Buffer> made = arena.create_buffer(16, MemoryKind::kDevice, "an unused texel buffer");
     if (!made.ok()) return made.error();
     unused = made.value();
   }
-  Result<VkBufferView> of_triangles = arena.create_texel_view(use_texels ? triangles : unused);
-  if (!of_triangles.ok()) return of_triangles.error();
-  Result<VkBufferView> of_nodes = arena.create_texel_view(use_texels ? nodes : unused, VK_FORMAT_R32G32B32A32_UINT);
-  if (!of_nodes.ok()) return of_nodes.error();
-  triangle_texels = of_triangles.value();
-  node_texels = of_nodes.value();
+  const std::array buffers = {&triangles, &nodes, &rests, &states, &found};
+  for (std::size_t i = 0; i < buffers.size(); ++i) {
+    const VkFormat format = i == 0 ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R32G32B32A32_UINT;
+    Result<VkBufferView> view = arena.create_texel_view(use_texels ? *buffers[i] : unused, format);
+    if (!view.ok()) return view.error();
+    texels[i] = view.value();
+  }
   return {};
 }
 
 void FollowerJob::Impl::make_keys() {
-  const auto of_balls = [&](const char* shader, std::uint32_t group = kWorkgroupSize) {
-    constexpr std::uint32_t kStorage = 10, kTexels = 2;  // as in follow()
-    return ProgramKey{
-        std::string(shader) + storage_suffix(use_texels), kStorage, kTexels, sizeof(gpu::FollowConstants), group, {}};
+  const auto of_balls = [&](const std::string& shader, std::uint32_t group = kWorkgroupSize) {
+    constexpr std::uint32_t kStorage = 10, kTexels = 5;  // as in follow()
+    return ProgramKey{shader + storage_suffix(use_texels), kStorage, kTexels, sizeof(gpu::FollowConstants), group, {}};
   };
+  const std::string lockstep = walk_together ? "_lockstep" : "";
   constexpr auto kBytes = static_cast<std::uint32_t>(sizeof(gpu::RefitConstants));
   keys.place_triangles = {"place_triangles", 4, 0, kBytes, kWorkgroupSize, {}};
-  keys.refit_level = {"refit_nodes", 3, 0, kBytes, kWorkgroupSize, {0}};
-  keys.refit_small_levels = {"refit_nodes", 3, 0, kBytes, kResolveGroup, {1}};
-  keys.follow = of_balls("follow_balls");
+  keys.refit_leaves = {"refit_nodes", 3, 0, kBytes, kWorkgroupSize, {1, 0}};
+  keys.refit_level = {"refit_nodes", 3, 0, kBytes, kWorkgroupSize, {0, 0}};
+  keys.refit_small_levels = {"refit_nodes", 3, 0, kBytes, kResolveGroup, {0, 1}};
+  keys.follow = of_balls("follow_balls" + lockstep);
   keys.prepare_resolve = {"prepare_resolve", 1, 0, 0, 1, {}};
   keys.resolve = of_balls("resolve_followed", kResolveGroup);
-  keys.complete = {of_balls("follow_again"), of_balls("connect_balls"), of_balls("cast_rays"), of_balls("settle_balls"),
-                   of_balls("recover_balls")};
+  keys.follow_again = of_balls("follow_again" + lockstep);
+  keys.connect = of_balls("connect_balls");
+  keys.cast_rays = of_balls("cast_rays");
+  keys.settle = of_balls("settle_balls");
+  keys.recover = of_balls("recover_balls");
 }
 
-Status FollowerJob::Impl::fill(const IndexedMesh& rest, const Bvh& bvh, const ThreadedTree& tree,
+Status FollowerJob::Impl::fill(const IndexedMesh& rest, const ThreadedTree& tree,
                                const std::vector<gpu::FollowRest>& at_rest) {
   std::vector<std::uint32_t> corners;
-  corners.reserve(3 * bvh.order().size());
-  for (const std::uint32_t triangle : bvh.order()) {
+  corners.reserve(3 * tree.order.size());
+  for (const std::uint32_t triangle : tree.order) {
     for (const std::uint32_t corner : rest.view().triangles[triangle]) corners.push_back(corner);
   }
   vertex_count = static_cast<std::uint32_t>(rest.view().vertices.size());
-  triangle_count = static_cast<std::uint32_t>(bvh.order().size());
+  triangle_count = static_cast<std::uint32_t>(tree.order.size());
   ball_count = static_cast<std::uint32_t>(at_rest.size());
-  node_count = tree.node_count();
-  for (std::uint32_t level = 0; level < tree.level_count; ++level) level_sizes.push_back(tree.nodes_of(level));
+  place_count = tree.place_count();
+  walk_together = can_walk_together(context) && tree.depth <= gpu::kMostFollowDepth;
+  for (std::uint32_t level = 0; level < tree.level_count; ++level) level_sizes.push_back(tree.places_of(level));
   if (Status status = make_buffers(); !status) return status;
   Uploads uploads(context);
   const auto upload_all = [&](const auto& values, const char* purpose, Buffer& buffer) -> Status {
@@ -210,7 +229,7 @@ Status FollowerJob::Impl::fill(const IndexedMesh& rest, const Bvh& bvh, const Th
     return {};
   };
   if (Status status = upload_all(corners, "indices of vertices", indices); !status) return status;
-  if (Status status = upload_all(tree.nodes, "a tree of triangles that move", nodes); !status) return status;
+  if (Status status = upload_all(tree.places, "a tree of triangles that move", nodes); !status) return status;
   if (Status status = upload_all(tree.levels, "levels of a tree", levels); !status) return status;
   if (Status status = upload_all(at_rest, "balls at rest", rests); !status) return status;
   const std::vector<std::uint32_t> none(gpu::kUnresolvedFirst, 0);
@@ -229,11 +248,11 @@ void FollowerJob::Impl::refit(Recorder& r) const {
   const std::array of_nodes = {triangles.range(), nodes.range(), levels.range()};
   const auto level_count = static_cast<std::uint32_t>(level_sizes.size());
   while (constants.first_level < level_count) {
-    const std::uint32_t nodes_here = level_sizes[constants.first_level];
-    const bool is_small = nodes_here <= kSmallLevel;  // and so are those above
-    constants.end_level = is_small ? level_count : constants.first_level + 1;
-    const ProgramKey& key = is_small ? keys.refit_small_levels : keys.refit_level;
-    r.dispatch(key, of_nodes, {}, bytes_of(constants), is_small ? key.workgroup_size : nodes_here);
+    const std::uint32_t level = constants.first_level, places_here = level_sizes[level];
+    const bool is_small = level != 0 && places_here <= kSmallLevel;  // and so are those above
+    constants.end_level = is_small ? level_count : level + 1;
+    const ProgramKey& key = is_small ? keys.refit_small_levels : level == 0 ? keys.refit_leaves : keys.refit_level;
+    r.dispatch(key, of_nodes, {}, bytes_of(constants), is_small ? key.workgroup_size : places_here);
     r.barrier();
     constants.first_level = constants.end_level;
   }
@@ -241,7 +260,7 @@ void FollowerJob::Impl::refit(Recorder& r) const {
 
 void FollowerJob::Impl::follow(Recorder& r) const {
   const gpu::FollowConstants constants = {ball_count,
-                                          node_count,
+                                          place_count,
                                           triangle_count,
                                           from_rest ? 1u : 0u,
                                           scale,
@@ -251,14 +270,13 @@ void FollowerJob::Impl::follow(Recorder& r) const {
   const std::array buffers = {triangles.storage_range(use_texels),
                               nodes.storage_range(use_texels),
                               lists.range(),
-                              rests.range(),
+                              rests.storage_range(use_texels),
                               states.range(),
                               found.range(),
                               sides.range(),
                               unresolved.range(),
                               balls.range(),
                               ball_states.range()};
-  const std::array texels = {triangle_texels, node_texels};
   const auto run = [&](const ProgramKey& key) {
     r.dispatch(key, buffers, texels, bytes_of(constants), ball_count);
     r.barrier();
@@ -267,15 +285,25 @@ void FollowerJob::Impl::follow(Recorder& r) const {
   const std::array list = {unresolved.range()};
   r.dispatch(keys.prepare_resolve, list, {}, {}, 1);
   r.barrier();
-  r.dispatch_indirect(keys.resolve, buffers, texels, bytes_of(constants), unresolved, gpu::kUnresolvedGroups * 4);
-  r.barrier();
-  for (const ProgramKey& key : keys.complete) run(key);
+  const auto run_by = [&](const ProgramKey& key, const Buffer& counts, std::uint32_t word) {
+    r.dispatch_indirect(key, buffers, texels, bytes_of(constants), counts, VkDeviceSize{word} * 4);
+    r.barrier();
+  };
+  const auto run_list = [&](const ProgramKey& key, std::uint32_t list_index) {
+    run_by(key, lists, gpu::kFollowGroups + 3 * (list_index - gpu::kFollowAgain));
+  };
+  run_by(keys.resolve, unresolved, gpu::kUnresolvedGroups);
+  run_list(keys.follow_again, gpu::kFollowAgain);
+  run(keys.connect);
+  run_list(keys.cast_rays, gpu::kFollowRays);
+  run(keys.settle);
+  run_list(keys.recover, gpu::kFollowLost);
 }
 
 Status FollowerJob::Impl::append(Recorder& r, const Frame& frame) const {
   r.barrier_to_others();
   if (has_vertices) r.copy(frame.staged, 0, vertices, 0, VkDeviceSize{vertex_count} * sizeof(RecordedVertex));
-  r.fill(lists, 0, gpu::kFollowLists * 4, 0);
+  r.update(lists, 0, std::as_bytes(std::span(kEmptyLists)));
   r.barrier();
   refit(r);
   follow(r);
@@ -289,9 +317,7 @@ Result<FollowerJob> FollowerJob::create(Context& context, const IndexedMesh& res
   return catch_out_of_memory("preparing a job", [&]() -> Result<FollowerJob> {
     auto impl = std::make_unique<Impl>(Internals::of(context), options);
     const MeshView& mesh = rest.view();
-    if (Status fits = impl->check_sizes(mesh.triangles.size(), balls.size(), mesh.vertices.size()); !fits) {
-      return fits.error();
-    }
+    if (Status fits = impl->check_sizes(mesh, balls.size()); !fits) return fits.error();
     Result<MovingSurface> surface = MovingSurface::build(rest);
     if (!surface) return surface.error();
     if (Status status = check_mesh(rest, surface.value()); !status) return status.error();
@@ -301,13 +327,15 @@ Result<FollowerJob> FollowerJob::create(Context& context, const IndexedMesh& res
     on_host.object_angle = options.object_angle;
     on_host.threads = options.threads;
     if (Result<Follower> tested = Follower::create(rest, balls, on_host); !tested) return tested.error();
-    Result<Bvh> bvh = refined_tree(rest.bvh(), gpu::kMostFollowLeaf);
-    if (!bvh) return bvh.error();
+    const ThreadedTree tree = make_threaded_tree(mesh, rest.bvh());
+    if (Status fits = impl->check_size(tree.place_count(), "places in a tree", 2 * sizeof(gpu::vec4)); !fits) {
+      return fits.error();
+    }
     impl->scale = static_cast<float>(std::ldexp(1.0, -std::ilogb(rest.longest_side())));
     Result<std::vector<gpu::FollowRest>> at_rest =
-        make_rest_balls(surface.value(), balls, places_of(bvh.value()), double{impl->scale}, options.threads);
+        make_rest_balls(surface.value(), balls, positions_in(tree), double{impl->scale}, options.threads);
     if (!at_rest) return at_rest.error();
-    if (Status status = impl->fill(rest, bvh.value(), make_threaded_tree(bvh.value()), at_rest.value()); !status) {
+    if (Status status = impl->fill(rest, tree, at_rest.value()); !status) {
       return status.error();
     }
     const auto rehearse = [&](Recorder& r) { return impl->append(r, impl->frames.front()); };

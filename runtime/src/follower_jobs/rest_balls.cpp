@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <queue>
@@ -17,6 +18,7 @@ namespace medial_vk {
 namespace {
 
 constexpr std::size_t kBallsAtATime = 16;  // that one thread takes
+constexpr std::size_t kBallsOfWalk = 8;
 
 /// A ball of the caller touches the surface at the point nearest to its centre.
 TrackedBall tracked_at_rest(const MovingSurface& surface, const Ball& ball) {
@@ -32,31 +34,59 @@ gpu::vec4 to_floats(const Point& p, double w) {
   return {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]), static_cast<float>(w)};
 }
 
-gpu::FollowContact packed_contact(const MovingSurface& surface, const BallContact& contact,
-                                  std::span<const std::uint32_t> places, double scale) {
+/// FollowState::carried_a of a contact.
+gpu::vec4 carried(const MovingSurface& surface, const BallContact& contact, double scale) {
   const Corners3 corners = surface.corners(contact.on.triangle);
   const Point inward = surface.inward_normal(contact.on.triangle);
   const Point& d = contact.towards_centre;
   const Point products = {scale * dot(d, corners[1] - corners[0]), scale * dot(d, corners[2] - corners[0]),
                           dot(d, inward)};
-  return {to_floats(d, 0),
-          to_floats(products, dot(inward, inward) > 0 ? 1 : 0),
-          places[contact.on.triangle],
-          static_cast<float>(contact.on.v),
-          static_cast<float>(contact.on.w),
-          0};
+  return to_floats(products, dot(inward, inward) > 0 ? 1 : 0);
 }
 
 gpu::FollowRest packed_rest(const MovingSurface& surface, const TrackedBall& tracked,
                             std::span<const std::uint32_t> places, double scale) {
-  const double through = radius_through(surface.at(tracked.a.on), tracked.a.towards_centre, surface.at(tracked.b.on));
+  const BallContact &a = tracked.a, &b = tracked.b;
+  const double through = radius_through(surface.at(a.on), a.towards_centre, surface.at(b.on));
   gpu::FollowRest rest = {};
-  rest.followed.a = packed_contact(surface, tracked.a, places, scale);
-  rest.followed.b = packed_contact(surface, tracked.b, places, scale);
-  rest.followed.ball = to_floats(scale * tracked.ball.centre, scale * tracked.ball.radius);
+  gpu::FollowedBall& followed = rest.state.followed;
+  followed.towards_a = to_floats(a.towards_centre, a.on.v);
+  followed.towards_b = to_floats(b.towards_centre, b.on.v);
+  followed.triangle_a = places[a.on.triangle];
+  followed.triangle_b = places[b.on.triangle];
+  followed.w_a = static_cast<float>(a.on.w);
+  followed.w_b = static_cast<float>(b.on.w);
+  followed.ball = to_floats(scale * tracked.ball.centre, scale * tracked.ball.radius);
+  rest.state.carried_a = carried(surface, a, scale);
+  rest.state.carried_b = carried(surface, b, scale);
   rest.through = static_cast<float>(std::min(scale * through, 1e8));
-  rest.turn = static_cast<float>(dot(tracked.a.towards_centre, tracked.b.towards_centre));
+  rest.turn = static_cast<float>(dot(a.towards_centre, b.towards_centre));
   return rest;
+}
+
+/// Sorts balls into groups of eight, which walk the tree together: those that are longest in some coordinate, of the
+/// centre or the radius, are cut in the middle of it.
+void group_neighbours(std::span<const TrackedBall> tracked, std::span<std::uint32_t> order) {
+  if (order.size() <= kBallsOfWalk) return;
+  const auto coordinate = [&](std::uint32_t ball, std::size_t axis) {
+    return axis < 3 ? tracked[ball].ball.centre[axis] : tracked[ball].ball.radius;
+  };
+  double longest = -1;
+  std::size_t along = 0;
+  for (std::size_t axis = 0; axis < 4; ++axis) {
+    const auto value = [&](std::uint32_t ball) { return coordinate(ball, axis); };
+    const auto [least, most] = std::ranges::minmax_element(order, {}, value);
+    const double extent = value(*most) - value(*least);
+    if (extent <= longest) continue;
+    longest = extent;
+    along = axis;
+  }
+  const std::size_t groups = (order.size() + kBallsOfWalk - 1) / kBallsOfWalk, first = groups / 2 * kBallsOfWalk;
+  // By their numbers, where coordinates are equal: one result with all libraries.
+  std::ranges::nth_element(order, order.begin() + static_cast<std::ptrdiff_t>(first), {},
+                           [&](std::uint32_t ball) { return std::pair(coordinate(ball, along), ball); });
+  group_neighbours(tracked, order.first(first));
+  group_neighbours(tracked, order.subspan(first));
 }
 
 /// Links between balls that overlap little are long, so that short ways avoid them.
@@ -111,7 +141,7 @@ Result<std::vector<gpu::FollowRest>> make_rest_balls(const MovingSurface& surfac
                [&](std::size_t i) { tracked[i] = tracked_at_rest(surface, balls[i]); });
   std::vector<std::uint32_t> order(balls.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return places[tracked[i].a.on.triangle]; });
+  group_neighbours(tracked, order);
   std::vector<Ball> sorted(balls.size());
   for (std::size_t i = 0; i < order.size(); ++i) sorted[i] = tracked[order[i]].ball;
   Result<std::vector<std::uint32_t>> parents = overlapping_parents(sorted, threads);

@@ -7,57 +7,54 @@ const float kNoLongerRest = 0.001;    // a change of the radius and of the cosin
 const float kMedialTurn = 0.9193954;  // squared_turn() at an object angle of 0.5
 const float kShrunkNow = 0.8;         // of the last radius
 
-FollowedBall last_ball(uint ball) {
-  if (push.from_rest != 0u) return rests[ball].followed;
-  return states[ball];
+// At rest, or after the last frame.
+TrackedBall load_last(uint ball, bool at_rest) {
+  uvec4 vectors[kStateVectors];
+  [[unroll]] for (uint k = 0u; k < kStateVectors; ++k) {
+    uvec4 rest = rest_vector(kRestVectors * ball + k), last = state_vector(kStateVectors * ball + k);
+    vectors[k] = at_rest ? rest : last;
+  }
+  return unpacked(vectors[0], vectors[1], vectors[2], vectors[3], vectors[4], vectors[5]);
 }
 
-// Both contacts in this frame; first the one that stays, within a face, if one is.
-FollowedBall carried_ball(FollowedBall last) {
-  FollowContact a = carry(last.a), b = carry(last.b);
-  bool swaps = !is_within_face(a) && is_within_face(b);
-  if (swaps) return FollowedBall(b, a, last.ball);
-  return FollowedBall(a, b, last.ball);
-}
-
-bool is_as_at_rest(FollowRest rest, FollowContact a, FollowContact b) {
-  float through = radius_through(point_of(a), a.towards.xyz, point_of(b));
-  float turn = dot(a.towards.xyz, b.towards.xyz) - rest.turn;
-  return abs(through / rest.through - 1.0) + abs(turn) < kNoLongerRest;
-}
-
-FollowedBall contacts_tried;
+TrackedBall contacts_tried;
 float last_radius, rest_radius;
 
 // Prepares a search.
 void start_first(uint ball, bool of_image) {
-  FollowedBall last = last_ball(ball);
-  last_radius = last.ball.w;
-  rest_radius = rests[ball].followed.ball.w;
-  float most = 1e8;
-  if (of_image) {
-    last = rests[ball].followed;
-    contacts_tried = FollowedBall(carry(last.a), carry(last.b), last.ball);
-    most = rest_radius + kContactSlack * greatest_length();
-  } else {
-    contacts_tried = carried_ball(last);
+  bool from_rest = push.from_rest != 0u;
+  rest_radius = rest_radius_of(ball);
+  float state_radius = uintBitsToFloat(state_vector(kStateVectors * ball + 3u).w);
+  last_radius = from_rest ? rest_radius : state_radius;
+  TrackedBall last = load_last(ball, of_image || from_rest);
+  last.a = carry(last.a);
+  last.b = carry(last.b);
+  // First the contact that stays, within a face, if one is.
+  contacts_tried = last;
+  if (!of_image && !is_within_face(last.a) && is_within_face(last.b)) {
+    contacts_tried.a = last.b;
+    contacts_tried.b = last.a;
   }
-  start_at(contacts_tried.a, contacts_tried.b, most);
+  start_at(contacts_tried.a, contacts_tried.b, of_image ? rest_radius + kContactSlack * greatest_length() : 1e8);
 }
 
 bool starts_from_rest(uint ball) {
-  FollowRest rest = rests[ball];
-  return is_as_at_rest(rest, carry(rest.followed.a), carry(rest.followed.b));
+  TrackedBall rest = load_rest(ball);
+  vec2 at_rest = uintBitsToFloat(last_of_rest(ball).xy);  // FollowRest::through and turn
+  Contact a = carry(rest.a), b = carry(rest.b);
+  float through = radius_through(point_of(a), a.towards, point_of(b));
+  float turn = dot(a.towards, b.towards) - at_rest.y;
+  return abs(through / at_rest.x - 1.0) + abs(turn) < kNoLongerRest;
 }
 
-bool is_too_small(FollowedBall now) {
+bool is_too_small(TrackedBall now) {
   return squared_turn(now) < kMedialTurn || now.ball.w < kShrunkNow * last_radius;
 }
 
 // Stores the ball of the search, and whether others are to be tried.
 void conclude_first(uint ball, bool of_image) {
-  FollowedBall now = searched_ball(contacts_tried.a, contacts_tried.b);
-  found[ball] = now;
+  TrackedBall now = searched_ball(contacts_tried.a, contacts_tried.b);
+  store_found(ball, now);
   float lost_to_rounding = 2.0 * (kContactSlack + kDistanceRounding) * greatest_length();
   bool is_whole = now.ball.w >= (1.0 - kNoLongerRest) * rest_radius - lost_to_rounding;
   bool again = of_image ? !is_whole : is_too_small(now);

@@ -10,7 +10,7 @@
 const uint kRayDirections = 4u;
 const uint kRayDescents = 8u;
 #ifndef RAY_ROUNDS
-#define RAY_ROUNDS 4000u  // of all directions; each is at most kRayDescents nodes, a leaf, and the ends of three loops
+#define RAY_ROUNDS 3300u  // of all directions; each is at most kRayDescents nodes, a leaf, and the ends of three loops
 #endif
 const float kSideRounding = 12.0 * 1.1920929e-7;
 const float kAheadRounding = 16.0 * 1.1920929e-7;
@@ -76,14 +76,14 @@ bool ray_meets(vec3 lower_corner, vec3 upper_corner) {
 void follow_ray() {
   ray_number = 0;
   ray_is_certain = true;
-  uint position = 0u, end = push.node_count;
+  uint position = 0u, end = push.place_count;
   while (position < end) {
     uint leaf = 0u, descents = 0u;
     while (descents < kRayDescents) {
       uvec4 lower = node_vector(2u * position), upper = node_vector(2u * position + 1u);
       bool meets = ray_meets(uintBitsToFloat(lower.xyz), uintBitsToFloat(upper.xyz));
-      leaf = meets ? lower.w : 0u;
-      position = meets && lower.w == 0u ? position + 1u : upper.w;
+      leaf = meets && lower.w >= 1u << kFollowLeafBits ? lower.w : 0u;
+      position = meets && lower.w < 1u << kFollowLeafBits ? kFollowArity * lower.w : upper.w;
       if (leaf != 0u || position >= end || ++descents == kRayDescents) break;
     }
     uint i = leaf & ((1u << kFollowLeafBits) - 1u), leaf_end = i + (leaf >> kFollowLeafBits);

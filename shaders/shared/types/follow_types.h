@@ -10,36 +10,47 @@
 namespace medial_vk::gpu {
 #endif
 
-// A contact of a ball. `carried`: the products of `towards` with the edges from corner 0 and with the inward normal of
-// the triangle, in the frame that it belongs to; w: 1 if the triangle had an area then.
-struct FollowContact {
-  vec4 towards;  // unit vector to the centre; w: unused
-  vec4 carried;
-  uint triangle;  // position in the order of the tree
-  float v, w;     // shares of the edges from corner 0 to the corners 1 and 2
-  uint unused;
+// A ball and its contacts a and b. `towards`: the unit vector from a contact to the centre; w: the share of the edge from
+// corner 0 to corner 1 of its triangle, v. A triangle is a position in the order of the tree.
+struct FollowedBall {
+  vec4 towards_a, towards_b;
+  uint triangle_a;
+  float w_a;  // the share of the edge from corner 0 to corner 2
+  uint triangle_b;
+  float w_b;
+  vec4 ball;  // w: radius; 0: lost
 };
 
-struct FollowedBall {
-  FollowContact a, b;
-  vec4 ball;  // w: radius; 0: lost
+// `carried`: the products of `towards` with the edges from corner 0 and with the inward normal of the triangle, in the
+// frame that they belong to; w: 1 if the triangle had an area then.
+struct FollowState {
+  FollowedBall followed;
+  vec4 carried_a, carried_b;
 };
 
 // A ball in the rest pose.
 struct FollowRest {
-  FollowedBall followed;
+  FollowState state;
   float through;  // radius of the ball that touches at a and passes through b
   float turn;     // cosine of the angle between the directions at both
   uint parent;    // a ball that overlaps it; itself: none
   uint index;     // its place in the order of the caller
 };
 
-// Words of the lists; three lists of as many words as there are balls follow from kFollowLists on.
+// Their sizes, in vectors.
+MEDIAL_VK_GPU_CONSTANT kFollowedVectors = 4u;
+MEDIAL_VK_GPU_CONSTANT kStateVectors = 6u;
+MEDIAL_VK_GPU_CONSTANT kRestVectors = 7u;
+
+// Words of the lists; three lists of as many words as there are balls follow from kFollowLists on. Lists have three group
+// counts each, with kFollowGroup entries for a workgroup.
 MEDIAL_VK_GPU_CONSTANT kFollowRefused = 0u;  // not 0: a coordinate of this frame is not finite, or too large
 MEDIAL_VK_GPU_CONSTANT kFollowAgain = 1u;    // lengths of the lists: balls that are tried in other ways, too,
 MEDIAL_VK_GPU_CONSTANT kFollowRays = 2u;     // balls whose sides are decided by rays,
 MEDIAL_VK_GPU_CONSTANT kFollowLost = 3u;     // balls that are to be recovered
-MEDIAL_VK_GPU_CONSTANT kFollowLists = 4u;
+MEDIAL_VK_GPU_CONSTANT kFollowGroups = 4u;   // group counts of the three lists
+MEDIAL_VK_GPU_CONSTANT kFollowLists = 13u;
+MEDIAL_VK_GPU_CONSTANT kFollowGroup = 64u;
 MEDIAL_VK_GPU_CONSTANT kFollowOfImage = 0x80000000u;  // in a list: what was tried is the image of the ball at rest
 
 // States of balls, in the order of FollowState.
@@ -53,8 +64,10 @@ MEDIAL_VK_GPU_CONSTANT kFollowOutside = 0xfffffffeu;
 MEDIAL_VK_GPU_CONSTANT kFollowInside = 0xffffffffu;
 MEDIAL_VK_GPU_CONSTANT kMostFollowLinks = 1000u;  // from a ball to its parent, to the parent of that, and so on
 
-MEDIAL_VK_GPU_CONSTANT kFollowLeafBits = 24u;  // a leaf: number of triangles above, the first one below
-MEDIAL_VK_GPU_CONSTANT kMostFollowLeaf = 4u;
+MEDIAL_VK_GPU_CONSTANT kFollowLeafBits = 24u;      // a leaf: number of triangles above, the first one below
+MEDIAL_VK_GPU_CONSTANT kMostFollowLeaf = 8u;
+MEDIAL_VK_GPU_CONSTANT kFollowArity = 8u;          // places of children in a node
+MEDIAL_VK_GPU_CONSTANT kMostFollowDepth = 16u;     // nodes above each other that balls walk together
 
 // The longest side of a frame may be from 1/4096 to 4096 times the unit, and coordinates up to 2^20.
 MEDIAL_VK_GPU_CONSTANT_FLOAT kLeastFollowSide = 0.000244140625f;
@@ -64,7 +77,7 @@ MEDIAL_VK_GPU_CONSTANT_FLOAT kMostFollowCoordinate = 1048576.0f;
 // Push constants of the kernels of balls.
 struct FollowConstants {
   uint ball_count;
-  uint node_count;
+  uint place_count;     // of children in all nodes
   uint triangle_count;
   uint from_rest;       // 1: the frame before is the rest pose
   float scale;          // a length of the caller times this

@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
+#include "device/context_impl.h"
 #include "medial_vk/ball_union.h"
 #include "support/device/device.h"
 #include "support/device/device_test.h"
@@ -88,6 +90,30 @@ TEST(FollowerJob, GivesTheSameAgain) {
   EXPECT_EQ(greatest_difference(one.balls(), after_first), 0);
   one.update(second);
   EXPECT_EQ(greatest_difference(one.balls(), other.balls()), 0);
+}
+
+// On devices with lanes in lockstep eight balls walk the tree together, elsewhere each by itself: all are inside, and
+// nearly all are as large as the others.
+TEST(FollowerJob, BallsThatWalkAloneAreAsLarge) {
+  MEDIAL_VK_SKIP_WITHOUT_DEVICE();
+  Context alone = test::make_context();
+  if (!Internals::of(alone).has_lockstep_lanes) GTEST_SKIP() << "the device has no lanes in lockstep";
+  Internals::of(alone).has_lockstep_lanes = false;
+  for (const Example& example : {torus(), l_shape()}) {
+    FollowedOnDevice one(alone, example.mesh, example.balls);
+    FollowedOnDevice together(test::quick_device(), example.mesh, example.balls);
+    const Frame frame = test::moved_vertices(example.rest(), test::Motion::kBend, 1);
+    one.update(frame);
+    together.update(frame);
+    one.expect_inside(frame, "alone");
+    // Both are the greatest balls but for this, where both have decided alike.
+    const double less = kLessOnDevice * lengths_of(frame);
+    std::size_t same = 0;
+    for (std::size_t i = 0; i < example.balls.size(); ++i) {
+      same += std::abs(one.balls()[i].radius - together.balls()[i].radius) <= less ? 1 : 0;
+    }
+    EXPECT_GE(same, example.balls.size() * 97 / 100);
+  }
 }
 
 TEST(FollowerJob, StatesAreThoseOfTheOptions) {
