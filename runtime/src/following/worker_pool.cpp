@@ -28,21 +28,22 @@ WorkerPool::~WorkerPool() {
   for (std::thread& worker : workers_) worker.join();
 }
 
-void WorkerPool::run_on(std::size_t blocks, const Task& task) {
+void WorkerPool::run(std::size_t blocks, Loop& loop) {
   const std::size_t others = std::min(workers_.size(), std::max<std::size_t>(blocks, 1) - 1);
   if (others > 0) {
     const std::lock_guard lock(mutex_);
-    task_ = task;
+    loop_ = &loop;
     wanted_ = running_ = others;
   }
   for (std::size_t i = 0; i < others; ++i) has_begun_.notify_one();
-  task.call(task.context);
+  loop.take_part();
   if (others == 0) return;
   std::unique_lock lock(mutex_);
   // Workers that have not woken yet are not waited for: no block is left for them.
   running_ -= wanted_;
   wanted_ = 0;
   has_ended_.wait(lock, [&] { return running_ == 0; });
+  loop_ = nullptr;
 }
 
 void WorkerPool::serve() noexcept {
@@ -51,9 +52,9 @@ void WorkerPool::serve() noexcept {
     has_begun_.wait(lock, [&] { return is_ending_ || wanted_ > 0; });
     if (is_ending_) return;
     --wanted_;
-    const Task task = task_;
+    Loop& loop = *loop_;
     lock.unlock();
-    task.call(task.context);
+    loop.take_part();
     lock.lock();
     if (--running_ == 0) has_ended_.notify_one();
   }

@@ -25,40 +25,57 @@ class WorkerPool {
   /// Calls body(i) for every i in [0, count), as parallel_for() does. Allocates nothing.
   template <class Body>
   void run(std::size_t count, std::size_t block, const Body& body) {
-    std::atomic<std::size_t> next = 0;
-    std::mutex mutex;
-    std::exception_ptr thrown;
-    const auto work = [&]() noexcept {
-      try {
-        for (std::size_t begin = next.fetch_add(block); begin < count; begin = next.fetch_add(block)) {
-          for (std::size_t i = begin; i < std::min(begin + block, count); ++i) body(i);
-        }
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        thrown = std::current_exception();
-        next = count;  // skips the remaining blocks
-      }
-    };
-    const auto call = [](const void* context) noexcept { (*static_cast<const decltype(work)*>(context))(); };
-    run_on((count + block - 1) / block, {call, &work});
-    if (thrown) std::rethrow_exception(thrown);
+    LoopOf<Body> loop(count, block, body);
+    run((count + block - 1) / block, loop);
+    loop.rethrow();
   }
 
  private:
-  struct Task {
-    void (*call)(const void* context) noexcept = nullptr;
-    const void* context = nullptr;
+  /// A loop whose blocks several threads take.
+  class Loop {
+   public:
+    virtual ~Loop() = default;
+    virtual void take_part() noexcept = 0;
+  };
+
+  template <class Body>
+  class LoopOf final : public Loop {
+   public:
+    LoopOf(std::size_t count, std::size_t block, const Body& body) : count_(count), block_(block), body_(body) {}
+
+    void take_part() noexcept override {
+      try {
+        for (std::size_t begin = next_.fetch_add(block_); begin < count_; begin = next_.fetch_add(block_)) {
+          for (std::size_t i = begin; i < std::min(begin + block_, count_); ++i) body_(i);
+        }
+      } catch (...) {
+        const std::lock_guard lock(mutex_);
+        thrown_ = std::current_exception();
+        next_ = count_;  // skips the remaining blocks
+      }
+    }
+
+    void rethrow() const {
+      if (thrown_) std::rethrow_exception(thrown_);
+    }
+
+   private:
+    const std::size_t count_, block_;
+    const Body& body_;
+    std::atomic<std::size_t> next_ = 0;
+    std::mutex mutex_;
+    std::exception_ptr thrown_;
   };
 
   /// On the caller's thread and up to `blocks` - 1 others; returns once all of them have ended.
-  void run_on(std::size_t blocks, const Task& task);
+  void run(std::size_t blocks, Loop& loop);
   void serve() noexcept;
 
   std::mutex mutex_;
   std::condition_variable has_begun_, has_ended_;
-  Task task_;
-  std::size_t wanted_ = 0;   // workers that shall still take the task
-  std::size_t running_ = 0;  // workers that have taken it or shall
+  Loop* loop_ = nullptr;
+  std::size_t wanted_ = 0;   // workers that shall still take part in the loop
+  std::size_t running_ = 0;  // workers that do or shall
   bool is_ending_ = false;
   std::vector<std::thread> workers_;
 };
