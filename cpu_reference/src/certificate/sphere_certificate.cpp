@@ -120,9 +120,9 @@ class Corner {
     if (along.squaredNorm() == 0) return;
     const double k1 = (n1.squaredNorm() + (a.radius - b.radius) * (a.radius + b.radius)) / 2;
     const double k2 = (n2.squaredNorm() + (a.radius - c.radius) * (a.radius + c.radius)) / 2;
-    Eigen::Matrix3d planes;
-    planes << n1.transpose(), n2.transpose(), along.transpose();
-    const Vector3d foot = planes.fullPivLu().solve(Vector3d(k1, k2, 0));
+    Eigen::Matrix3d planes;  // of unit normals: the rank does not depend on the unit of length
+    planes << n1.normalized().transpose(), n2.normalized().transpose(), along.normalized().transpose();
+    const Vector3d foot = planes.fullPivLu().solve(Vector3d(k1 / n1.norm(), k2 / n2.norm(), 0));
     const double squared = (a.radius - foot.norm()) * (a.radius + foot.norm());
     const double greatest = std::max({a.radius, b.radius, c.radius});
     if (squared < -1e-9 * greatest * greatest) return;

@@ -176,8 +176,9 @@ class TreeThreader {
   /// around all triangles.
   void add_nodes() {
     waiting_.push_back({{below_[0]}, kNone, 0});
-    for (std::size_t node = 0; node < waiting_.size(); ++node) {
-      const Waiting now = std::move(waiting_[node]);
+    std::size_t node = 0;
+    while (node < waiting_.size()) {  // which grows
+      const Waiting now = std::move(waiting_[node++]);
       tree_.depth = std::max(tree_.depth, now.depth);
       for (std::uint32_t k = 0; k < gpu::kFollowArity; ++k) add_place(now, k);
     }

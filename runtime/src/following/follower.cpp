@@ -78,7 +78,7 @@ class Follower::Impl {
                                               const FollowerOptions& options) {
     Result<MovingSurface> surface = MovingSurface::build(rest);
     if (!surface) return surface.error();
-    const std::size_t blocks = (balls.size() + kBlock - 1) / kBlock;
+    const std::size_t blocks = std::max<std::size_t>(1, (balls.size() + kBlock - 1) / kBlock);
     const auto threads = static_cast<unsigned>(std::min<std::size_t>(thread_count(options.threads), blocks));
     std::unique_ptr<Impl> impl(new Impl(std::move(surface).value(), options, threads));
     if (Status status = impl->take(balls); !status) return status.error();

@@ -23,8 +23,14 @@ Error in_words_of_file(const Error& error, const FollowOptions& options) {
 /// Why balls of a file do not cover the mesh at rest, or an empty text. Of an open mesh only the surface is asked for.
 std::string what_is_not_covered(const CoverProof& proof) {
   if (!proof.surface_proved()) {
-    return fmt::format("{} of {} triangles are not covered by them, the first at {}", proof.uncovered + proof.undecided,
-                       proof.triangles, place(proof.first_uncovered));
+    if (proof.uncovered == 0) {
+      return fmt::format(
+          "the cover of {} of {} triangles is too close to be proved, that of the first at {}; larger "
+          "radii, by the rounding of the file, help",
+          proof.undecided, proof.triangles, place(proof.first_uncovered));
+    }
+    return fmt::format("{} of {} triangles are not covered by them, the first at {}", proof.uncovered, proof.triangles,
+                       place(proof.first_uncovered));
   }
   if (!proof.closed || proof.inside == 0) return {};
   return fmt::format("they leave a cavity in the solid, at {}", place(proof.first_inside));

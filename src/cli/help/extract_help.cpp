@@ -17,8 +17,8 @@ Usage:
                                poses: medial-vk distance --help
   medial-vk clearance [options] ROBOT.urdf   the same among links of a robot:
                                medial-vk clearance --help
-  medial-vk follow [options] REST FRAME...   balls inside a mesh that deforms:
-                               medial-vk follow --help
+  medial-vk follow [options] REST FRAME...   balls inside a mesh that deforms,
+                               or around it: medial-vk follow --help
   medial-vk doctor [options]   whether it works on this machine, and what is
                                missing: medial-vk doctor --help
 

@@ -67,8 +67,8 @@ How balls inside follow:
 
 How a cover follows:
       --tighten         divide the surface of each frame among the balls anew,
-                        so that they become smaller; takes some twenty times
-                        as long
+                        by at least four steps, so that they become smaller;
+                        takes some twenty times as long
       --grown G         a ball above G times its radius at rest counts as grown
                         (default 1.25)
 

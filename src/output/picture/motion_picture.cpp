@@ -28,15 +28,20 @@ std::vector<const FollowedFrame*> shown_frames(const MotionRecord& record) {
   return shown;
 }
 
-/// The corners of the box around all shown frames: vertices of no triangle, which every cell has, so that the camera
-/// stays where it is.
+/// The corners of the box around all shown frames and their balls, which may reach out: vertices of no triangle, which
+/// every cell has, so that the camera stays where it is.
 std::vector<Point> common_corners(std::span<const FollowedFrame* const> frames) {
-  std::array<float, 3> lower = frames.front()->vertices.front(), upper = lower;
+  const std::array<float, 3>& first = frames.front()->vertices.front();
+  Point lower = {first[0], first[1], first[2]}, upper = lower;
+  const auto extend = [&](std::size_t axis, double from, double to) {
+    lower[axis] = std::min(lower[axis], from);
+    upper[axis] = std::max(upper[axis], to);
+  };
   for (const FollowedFrame* frame : frames) {
-    for (const auto& vertex : frame->vertices) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        lower[k] = std::min(lower[k], vertex[k]);
-        upper[k] = std::max(upper[k], vertex[k]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (const auto& vertex : frame->vertices) extend(k, vertex[k], vertex[k]);
+      for (const Ball& ball : frame->balls) {
+        if (ball.radius > 0) extend(k, ball.centre[k] - ball.radius, ball.centre[k] + ball.radius);
       }
     }
   }

@@ -57,6 +57,21 @@ TEST_F(SphereCertificate, OneBallCoversOrDoesNot) {
   EXPECT_GT(proof.uncovered + proof.undecided, 0u);
 }
 
+// Four balls around the quarters of a cube meet twice, outside of it.
+TEST(SphereCertificateOfAnySize, CoversAreProvedInAnyUnit) {
+  for (const double unit : {1e-17, 1.0, 1e17}) {
+    const PreparedMesh mesh = prepare(make_box({unit, unit, unit}));
+    std::vector<Ball> balls;
+    for (const double x : {0.25, 0.75}) {
+      for (const double y : {0.25, 0.75}) balls.push_back({{x * unit, y * unit, 0.5 * unit}, 0.62 * unit});
+    }
+    EXPECT_TRUE(prove_cover(Solid::build(test::indexed(mesh)).value(), balls).value().proved()) << unit;
+    EXPECT_TRUE(reference::check_cover(test::to_reference(mesh), test::to_reference(balls)).passed()) << unit;
+    balls.pop_back();
+    EXPECT_FALSE(reference::check_cover(test::to_reference(mesh), test::to_reference(balls)).passed()) << unit;
+  }
+}
+
 TEST_F(SphereCertificate, BoundaryThatSeveralBallsShare) {
   // There is one ball for each octant; all pass through the middles of their neighbours' edges.
   std::vector<Ball> octants;

@@ -20,11 +20,11 @@ class Envelope {
 
   const NearestBallTree& tree() const { return tree_; }
   const BallUnion& measured() const { return union_; }
-  /// Common points of three spheres, computed, that lie in no ball by more than tolerance() or by more than their own
-  /// error: no exposed common point is missing. Where more than three spheres meet there may be several of them.
+  /// Common points of three spheres, computed, that lie in no ball by more than tolerance() or by more than error_of()
+  /// them. Where more than three spheres meet there may be several of them.
   const std::vector<EnvelopeVertex>& vertices() const { return vertices_; }
   /// Bound of the distance of a computed vertex from the common point of its three spheres; infinite where none is
-  /// known.
+  /// known. Too small where the centres are on one line within some 1e-10 of their distances.
   double error_of(const EnvelopeVertex& vertex) const;
   /// The greatest depth in a ball at which a point still counts as one of the envelope.
   double tolerance() const { return tolerance_; }
