@@ -189,8 +189,12 @@ class TreeThreader {
   }
 
   void add_place(const Waiting& of, std::uint32_t k) {
-    constexpr std::uint32_t kLargest = std::bit_cast<std::uint32_t>(3e38f);
-    constexpr std::uint32_t kLeast = std::bit_cast<std::uint32_t>(-3e38f);
+    // Farther from all balls than they are large, and near enough that no square becomes infinite: devices need not
+    // support infinities.
+    constexpr float kFar = 0x1p40f;
+    static_assert(kFar > 4 * gpu::kMostFollowCoordinate);
+    constexpr std::uint32_t kLargest = std::bit_cast<std::uint32_t>(kFar);
+    constexpr std::uint32_t kLeast = std::bit_cast<std::uint32_t>(-kFar);
     const std::uint32_t place = tree_.place_count();
     if (k >= of.parts.size()) {
       tree_.places.push_back({kLargest, kLargest, kLargest, 0});
