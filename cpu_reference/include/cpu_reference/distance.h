@@ -1,6 +1,6 @@
 // The distance of two meshes and of the solids that they enclose, by all pairs of triangles: simple, slow, and shared
-// with nothing. In double: up to rounding, which next to slivers of an aspect of 1e5 is some 1e-11 of lengths. Lengths
-// are in the units of the meshes.
+// with nothing. Whether triangles cross is exact, for the corners as they are placed; distances are in double: up to
+// rounding, which next to slivers of an aspect of 1e5 is some 1e-11 of lengths. Lengths are in the units of the meshes.
 #pragma once
 
 #include <Eigen/Core>
