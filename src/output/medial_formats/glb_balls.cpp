@@ -35,37 +35,42 @@ Point CentreBox::middle() const {
   return middle;
 }
 
+namespace {
+
+/// A centre in float, relative to the middle.
+struct RoundedCentre {
+  std::array<float, 3> centre = {};
+  double moved = 0;    // from the exact one
+  double largest = 0;  // coordinate of the exact one
+};
+
+RoundedCentre rounded_centre(const Point& centre, const Point& middle) {
+  RoundedCentre rounded;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double from_middle = centre[axis] - middle[axis];
+    rounded.centre[axis] = static_cast<float>(from_middle);
+    rounded.moved = std::hypot(rounded.moved, from_middle - double{rounded.centre[axis]});
+    rounded.largest = std::max(rounded.largest, std::abs(from_middle));
+  }
+  return rounded;
+}
+
+}  // namespace
+
 // The radius is reduced by the motion of the centre: the distance of the rounded centre from the exact one, and the
 // error of that distance, from the difference of doubles (2^-53 of the largest) and some operations (2^-50 of the
 // result).
 GlbBall glb_ball(const Ball& of, const Point& middle) {
-  GlbBall ball;
-  double moved = 0;
-  double largest = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double from_middle = of.centre[axis] - middle[axis];
-    ball.centre[axis] = static_cast<float>(from_middle);
-    moved = std::hypot(moved, from_middle - static_cast<double>(ball.centre[axis]));
-    largest = std::max(largest, std::abs(from_middle));
-  }
-  const double radius = of.radius - moved * (1 + 0x1p-50) - 0x1p-51 * largest;
-  ball.radius = shortened(std::max(0.0, radius));
-  return ball;
+  const RoundedCentre at = rounded_centre(of.centre, middle);
+  const double radius = of.radius - at.moved * (1 + 0x1p-50) - 0x1p-51 * at.largest;
+  return {at.centre, shortened(std::max(0.0, radius))};
 }
 
 // As above, with the same bounds added; 2^-49 of the sum is more than its own rounding.
 GlbBall glb_ball_around(const Ball& of, const Point& middle) {
-  GlbBall ball;
-  double moved = 0;
-  double largest = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double from_middle = of.centre[axis] - middle[axis];
-    ball.centre[axis] = static_cast<float>(from_middle);
-    moved = std::hypot(moved, from_middle - double{ball.centre[axis]});
-    largest = std::max(largest, std::abs(from_middle));
-  }
-  if (of.radius > 0) ball.radius = lengthened((of.radius + moved + 0x1p-51 * largest) * (1 + 0x1p-49));
-  return ball;
+  const RoundedCentre at = rounded_centre(of.centre, middle);
+  const double radius = (of.radius + at.moved + 0x1p-51 * at.largest) * (1 + 0x1p-49);
+  return {at.centre, of.radius > 0 ? lengthened(radius) : 0};
 }
 
 std::array<std::vector<std::uint32_t>, kColourSteps> spheres_by_colour(std::span<const MedialSphere> spheres,
