@@ -1,4 +1,4 @@
-# cmake -P PrecompileHeaders.cmake -- COMMAND ...: runs the command, and if it precompiles headers, writes a digest of the
+# cmake -P PrecompileWithDigest.cmake -- COMMAND ...: runs the command, and if it precompiles headers, writes a digest of the
 # preprocessed headers beside its output, FILE.sum. With CCACHE_PCH_EXTSUM ccache hashes FILE.sum in the place of FILE:
 # FILE has the paths of its build, and so differs in every folder.
 set(command)

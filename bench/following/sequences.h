@@ -1,0 +1,25 @@
+// Meshes in the poses of a motion, of the three kinds in Figure 7-4 of the source: an articulated animal, a knot and an
+// octopus that deform elastically.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "medial_vk/mesh.h"
+
+namespace medial_vk::bench {
+
+struct Sequence {
+  std::string name;
+  Mesh rest;
+  std::vector<std::vector<Point>> poses;  ///< The vertices of `rest` in each of them.
+};
+
+/// Made of bones with skin, whose legs, neck and tail turn at their joints: three moments of a gallop.
+Sequence horse();
+/// A tube around a trefoil knot, in three maps that preserve volumes: a squash, a twist and both.
+Sequence knot();
+/// A head and eight arms of six bones each, which curl, two by two in the third pose, while the head is squashed.
+Sequence octopus();
+
+}  // namespace medial_vk::bench
