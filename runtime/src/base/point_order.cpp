@@ -91,11 +91,10 @@ void halve(std::span<const Point> points, std::span<std::uint32_t> part) {
 
 }  // namespace
 
-std::vector<std::uint32_t> order_by_halving(std::span<const Point> points) {
-  std::vector<std::uint32_t> order(points.size());
+void order_by_halving(std::span<const Point> points, std::vector<std::uint32_t>& order) {
+  order.resize(points.size());
   std::iota(order.begin(), order.end(), 0u);
   halve(points, order);
-  return order;
 }
 
 }  // namespace medial_vk

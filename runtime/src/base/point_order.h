@@ -13,8 +13,8 @@ namespace medial_vk {
 /// points. The position of points with coordinates that are not finite is arbitrary.
 std::vector<std::uint32_t> order_along_curve(std::span<const Point> points);
 
-/// Indices of the points, halved recursively along the longest side of their box: slower, but insensitive to the
-/// distribution of the points and to outliers. Finite coordinates only.
-std::vector<std::uint32_t> order_by_halving(std::span<const Point> points);
+/// Indices of the points in `order`, halved recursively along the longest side of their box: slower, but insensitive to
+/// the distribution of the points and to outliers. Finite coordinates only.
+void order_by_halving(std::span<const Point> points, std::vector<std::uint32_t>& order);
 
 }  // namespace medial_vk

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "ball_unions/unions/union_measurer.h"
 #include "base/host_memory.h"
 #include "base/parallel.h"
 #include "following/ascent.h"
@@ -17,8 +18,8 @@
 #include "following/renewal.h"
 #include "following/tangent_rule.h"
 #include "following/tracked_ball.h"
-#include "following/worker_pool.h"
 #include "medial_vk/ball_union.h"
+#include "threads/worker_pool.h"
 
 namespace medial_vk {
 namespace {
@@ -159,9 +160,8 @@ class Follower::Impl {
     if (options_.rule == FollowRule::kTangent) drop_outside();
     rest_ = tracked_;
     if (options_.renewed > 0) {
-      const Result<BallUnion> measured = measure_present();
-      if (!measured) return measured.error();
-      rest_share_ = uncovered_share(measured.value());
+      if (Status status = measure_present(false); !status) return status;
+      rest_share_ = uncovered_share(measurer_.result());
     }
     report();
     return {};
@@ -191,21 +191,22 @@ class Follower::Impl {
     return renew();
   }
 
-  Result<BallUnion> measure_present() {
+  /// The result is that of measurer_, until the next call.
+  Status measure_present(bool complex) {
     copy_balls(present_);
-    return measure_ball_union(present_, BallUnionOptions{options_.threads, true});
+    return measurer_.measure(present_, complex, pool_);
   }
 
   double uncovered_share(const BallUnion& balls) const { return 1 - balls.volume / surface_.volume(); }
 
   /// Where the uncovered share has grown, balls leave for gaps.
   Status renew() {
-    const Result<BallUnion> measured = measure_present();
-    if (!measured) return measured.error();
-    const bool has_grown = uncovered_share(measured.value()) > options_.renewal_factor * rest_share_;
+    if (Status status = measure_present(true); !status) return status;
+    const BallUnion& measured = measurer_.result();
+    const bool has_grown = uncovered_share(measured) > options_.renewal_factor * rest_share_;
     if (!has_grown || !(rest_share_ > 0)) return {};
     const Result<std::vector<BallExchange>> exchanges =
-        find_exchanges(surface_, present_, measured.value(), options_.renewed, options_.threads);
+        find_exchanges(surface_, present_, measured, options_.renewed, options_.threads);
     if (!exchanges) return exchanges.error();
     for (const BallExchange& exchange : exchanges.value()) {
       TrackedBall& tracked = tracked_[exchange.ball];
@@ -235,9 +236,8 @@ class Follower::Impl {
     if (returned.empty()) return {};
     copy_balls(present_);
     for (const auto& [i, now] : returned) present_[i] = now.ball;
-    const Result<BallUnion> measured = measure_ball_union(present_, BallUnionOptions{options_.threads});
-    if (!measured) return measured.error();
-    if (uncovered_share(measured.value()) > kDrawn * options_.renewal_factor * rest_share_) return {};
+    if (Status status = measurer_.measure(present_, false, pool_); !status) return status;
+    if (uncovered_share(measurer_.result()) > kDrawn * options_.renewal_factor * rest_share_) return {};
     sides_.return_to_rest();
     for (const auto& [i, now] : returned) {
       tracked_[i] = now;
@@ -297,10 +297,8 @@ class Follower::Impl {
 
   /// All balls move at once, by what the union of the present ones exposes.
   Status ascend_all() {
-    copy_balls(present_);
-    Result<BallUnion> measured = measure_ball_union(present_, BallUnionOptions{options_.threads});
-    if (!measured) return measured.error();
-    const BallUnion& exposed = measured.value();
+    if (Status status = measure_present(false); !status) return status;
+    const BallUnion& exposed = measurer_.result();
     std::ranges::copy(tracked_, before_.begin());
     for_each_ball([&](std::size_t i) { ascend(surface_, {exposed.areas[i], exposed.vectors[i]}, tracked_[i]); });
     take_back_outside();
@@ -324,6 +322,7 @@ class Follower::Impl {
   MovingSurface surface_;
   FollowerOptions options_;
   WorkerPool pool_;  // of loops over balls, which come several times a frame
+  UnionMeasurer measurer_;
   std::vector<TrackedBall> tracked_, rest_;
   std::vector<TrackedBall> before_;  // the last step of the same frame: inside, or of radius 0
   std::vector<Ball> present_;        // of tracked_, within an update

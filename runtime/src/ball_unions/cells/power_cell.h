@@ -25,6 +25,13 @@ class PowerCell {
   };
 
   explicit PowerCell(std::span<const Ball> balls) : balls_(balls), exact_(balls, walls_) {}
+  PowerCell(const PowerCell&) = delete;
+  PowerCell& operator=(const PowerCell&) = delete;
+  /// For other balls, from the next start() on.
+  void use(std::span<const Ball> balls) {
+    balls_ = balls;
+    exact_.use(balls);
+  }
 
   /// The state from which restore() continues with a cell.
   struct Kept {

@@ -58,6 +58,8 @@ struct Wall {
 class ExactSide {
  public:
   ExactSide(std::span<const Ball> balls, const std::vector<Wall>& walls) : balls_(balls), walls_(walls) {}
+  /// For other balls, with the memory of earlier tests.
+  void use(std::span<const Ball> balls) { balls_ = balls; }
 
   /// True if plane m keeps the point where planes p, q, s of the cell of ball i meet. Their normals are independent.
   /// Each is the number k of a ball, or -1 - k for wall k.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -12,6 +13,9 @@
 #include "medial_vk/ball.h"
 
 namespace medial_vk {
+
+class BallInsertion;
+class WorkerPool;
 
 /// Two balls are joined by an edge if their power cells share a face, four by a tetrahedron if theirs share a corner.
 /// Ties are broken as in ExactSide, so that the result depends neither on rounding nor on the order of insertion. It
@@ -41,6 +45,13 @@ class RegularTriangulation {
   static std::optional<RegularTriangulation> build(std::span<const Ball> balls, std::span<const std::uint32_t> order,
                                                    unsigned threads);
 
+  /// No balls.
+  RegularTriangulation() = default;
+  /// The same in the memory of the triangulation before and of `insertion`; false where build() has no value, and then
+  /// this object holds no triangulation. Allocates nothing where the memory of an earlier call suffices.
+  bool rebuild(std::span<const Ball> balls, std::span<const std::uint32_t> order, BallInsertion& insertion,
+               WorkerPool& pool);
+
   /// All input balls, followed by the far points as balls of radius 0.
   std::span<const Ball> balls() const { return balls_; }
   bool is_far(std::uint32_t ball) const { return ball + kFarPoints >= balls_.size(); }
@@ -55,10 +66,15 @@ class RegularTriangulation {
 
  private:
   static constexpr std::uint32_t kFarPoints = 4;
-  explicit RegularTriangulation(std::span<const Ball> balls);
+  /// Of one thread at a time.
+  struct ExactCorners {
+    std::vector<Wall> no_walls;
+    ExactSide side{{}, no_walls};
+  };
+  void sort_into_rounds(std::span<const std::uint32_t> order);
   void add_far_points();
   void list_stars();
-  void place_corners(unsigned threads);
+  void place_corners(WorkerPool& pool);
   Corner place_corner(const Tetrahedron& t, ExactSide& exact) const;
 
   std::vector<Ball> balls_;
@@ -67,6 +83,9 @@ class RegularTriangulation {
   std::vector<std::array<std::uint32_t, 4>> positions_;  // by tetrahedron
   std::vector<std::size_t> first_;                       // by ball: into around_
   std::vector<std::uint32_t> around_;
+  std::vector<std::uint32_t> rounds_;                 // all balls, in the order in which they are added
+  std::vector<std::uint32_t> counts_;                 // by ball, for list_stars()
+  std::vector<std::unique_ptr<ExactCorners>> exact_;  // by block of tetrahedra
 };
 
 }  // namespace medial_vk

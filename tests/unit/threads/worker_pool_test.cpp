@@ -1,5 +1,5 @@
 // Loops on threads that are kept: every item once, whatever was before, and an exception of a body ends only its loop.
-#include "following/worker_pool.h"
+#include "threads/worker_pool.h"
 
 #include <gtest/gtest.h>
 

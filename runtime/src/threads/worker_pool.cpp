@@ -1,4 +1,4 @@
-#include "following/worker_pool.h"
+#include "threads/worker_pool.h"
 
 #include <new>
 #include <system_error>

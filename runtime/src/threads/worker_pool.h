@@ -22,6 +22,8 @@ class WorkerPool {
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
+  /// With the caller's.
+  unsigned threads() const { return static_cast<unsigned>(workers_.size()) + 1; }
   /// Calls body(i) for every i in [0, count), as parallel_for() does. Allocates nothing.
   template <class Body>
   void run(std::size_t count, std::size_t block, const Body& body) {

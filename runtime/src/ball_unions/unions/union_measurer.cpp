@@ -1,0 +1,131 @@
+#include "ball_unions/unions/union_measurer.h"
+
+#include <algorithm>
+
+#include "ball_unions/cells/ball_in_cell.h"
+#include "ball_unions/cells/ball_tree.h"
+#include "ball_unions/cells/cell_builder.h"
+#include "ball_unions/cells/cell_simplices.h"
+#include "ball_unions/unions/simplex_lists.h"
+#include "ball_unions/unions/unit_balls.h"
+#include "base/host_memory.h"
+#include "base/point_ops.h"
+#include "base/point_order.h"
+
+namespace medial_vk {
+namespace {
+
+/// Number of consecutive balls that one thread measures. It depends only on their total number, so that results are the
+/// same to the byte for any number of threads. Every block has a PowerCell, which holds a table of all balls: at most
+/// 65 of these.
+std::size_t block_of(std::size_t balls) { return std::max<std::size_t>(balls / 64, 64); }
+
+std::size_t blocks_of(std::size_t balls) { return (balls + block_of(balls) - 1) / block_of(balls); }
+
+}  // namespace
+
+/// The contribution of one block of balls to the lists.
+struct UnionMeasurer::Chunk {
+  DualComplex complex;
+  std::vector<EnvelopeVertex> vertices;
+};
+
+UnionMeasurer::UnionMeasurer() = default;
+UnionMeasurer::~UnionMeasurer() = default;
+
+std::size_t UnionMeasurer::useful_threads(std::size_t balls) { return std::max<std::size_t>(blocks_of(balls), 1); }
+
+Status UnionMeasurer::measure(std::span<const Ball> balls, bool complex, WorkerPool& pool) {
+  if (Status status = check_balls(balls); !status.ok()) return status;
+  return catch_out_of_memory("measuring a union of balls", [&]() -> Status {
+    const double scale = scale_of(balls);
+    balls_.resize(balls.size());
+    std::ranges::transform(balls, balls_.begin(), [scale](const Ball& ball) { return scaled_ball(ball, scale); });
+    measure_scaled(complex, pool);
+    scale_back(1 / scale);
+    return {};
+  });
+}
+
+void UnionMeasurer::measure_scaled(bool complex, WorkerPool& pool) {
+  result_.volumes.assign(balls_.size(), 0);
+  result_.areas.assign(balls_.size(), 0);
+  result_.vectors.assign(balls_.size(), Point{0, 0, 0});
+  chunks_.clear();
+  if (complex) chunks_.resize(blocks_of(balls_.size()));
+  centres_.resize(balls_.size());
+  std::ranges::transform(balls_, centres_.begin(), &Ball::centre);
+  order_by_halving(centres_, order_);
+  if (triangulation_.rebuild(balls_, order_, insertion_, pool)) {
+    measure_by_triangulation(pool);
+  } else {
+    measure_one_by_one(pool);
+  }
+  result_.volume = careful_sum(result_.volumes);
+  result_.area = careful_sum(result_.areas);
+  join_chunks();
+}
+
+void UnionMeasurer::measure_by_triangulation(WorkerPool& pool) {
+  const std::size_t blocks = blocks_of(balls_.size());
+  while (cells_.size() < blocks) cells_.push_back(std::make_unique<PowerCell>(triangulation_.balls()));
+  pool.run(blocks, 1, [&](std::size_t block) {
+    PowerCell& cell = *cells_[block];
+    cell.use(triangulation_.balls());
+    measure_block(block, [&](std::uint32_t i) -> const PowerCell& {
+      cell.start(i, triangulation_);
+      cell.sharpen();
+      return cell;
+    });
+  });
+}
+
+/// Each cell is cut by itself, from the balls around it.
+void UnionMeasurer::measure_one_by_one(WorkerPool& pool) {
+  const BallTree tree(balls_, pool.threads());
+  pool.run(blocks_of(balls_.size()), 1, [&](std::size_t block) {
+    CellBuilder builder(balls_, tree);
+    measure_block(block, [&](std::uint32_t i) -> const PowerCell& { return builder.build(i); });
+  });
+}
+
+template <class CellOf>
+void UnionMeasurer::measure_block(std::size_t block, const CellOf& cell_of) {
+  const std::size_t begin = block * block_of(balls_.size());
+  const std::size_t end = std::min(begin + block_of(balls_.size()), balls_.size());
+  SimplexCollector collector;
+  for (std::size_t n = begin; n < end; ++n) {
+    const std::uint32_t i = order_[n];
+    const Ball& ball = balls_[i];
+    if (ball.radius == 0) continue;
+    const PowerCell& cell = cell_of(i);
+    const BallInCell part = measure_ball_in_cell(cell, ball.radius);
+    result_.volumes[i] = part.volume;
+    result_.areas[i] = part.area;
+    result_.vectors[i] = part.area_vector;
+    if (!chunks_.empty()) collector.collect(cell, ball, chunks_[block].complex, chunks_[block].vertices);
+  }
+}
+
+void UnionMeasurer::join_chunks() {
+  result_.complex = {};
+  result_.vertices.clear();
+  if (chunks_.empty()) return;
+  for (const Chunk& chunk : chunks_) {
+    append(result_.complex, chunk.complex);
+    append(result_.vertices, chunk.vertices);
+  }
+  make_complete(result_.complex, result_.vertices);
+}
+
+void UnionMeasurer::scale_back(double unit) {
+  const double square = unit * unit, cube = square * unit;
+  for (double& volume : result_.volumes) volume *= cube;
+  for (double& area : result_.areas) area *= square;
+  for (Point& vector : result_.vectors) vector = square * vector;
+  for (EnvelopeVertex& vertex : result_.vertices) vertex.at = unit * vertex.at;
+  result_.volume *= cube;
+  result_.area *= square;
+}
+
+}  // namespace medial_vk
