@@ -32,6 +32,11 @@ class Choice {
     least_.assign(probes.size(), far_);
   }
 
+  void offer(std::span<const Ball> candidates) {
+    candidates_.insert(candidates_.end(), candidates.begin(), candidates.end());
+    chosen_.resize(candidates_.size());
+  }
+
   void choose(std::uint32_t candidate) {
     chosen_[candidate] = true;
     visit(candidates_[candidate], [&](std::size_t i, float cost) { least_[i] = std::min(least_[i], cost); });
@@ -88,6 +93,20 @@ class Choice {
     }
   }
 
+  /// Of those points that are set in `among`, the ones with the greatest differences; by number.
+  std::vector<std::size_t> farthest(std::size_t count, const std::vector<bool>& among) const {
+    std::vector<std::size_t> points;
+    for (std::size_t i = 0; i < least_.size(); ++i) {
+      if (among[i]) points.push_back(i);
+    }
+    count = std::min(count, points.size());
+    std::partial_sort(
+        points.begin(), points.begin() + static_cast<std::ptrdiff_t>(count), points.end(),
+        [&](std::size_t a, std::size_t b) { return least_[a] != least_[b] ? least_[a] > least_[b] : a < b; });
+    points.resize(count);
+    return points;
+  }
+
   /// Of the squares, over all points.
   double sum() const {
     double sum = 0;
@@ -98,7 +117,6 @@ class Choice {
   /// By candidate.
   const std::vector<bool>& chosen() const { return chosen_; }
   const Ball& candidate(std::size_t i) const { return candidates_[i]; }
-  std::size_t size() const { return candidates_.size(); }
 
  private:
   struct Entry {
@@ -167,14 +185,24 @@ std::vector<Ball> nearer_balls(const Solid& solid, std::span<const Ball> balls, 
   const std::size_t count = balls.size(), kept = kept_of(count), placed = count - kept;
   if (placed == 0) return {balls.begin(), balls.end()};
   std::vector<Ball> candidates(balls.begin(), balls.end());
-  const std::vector<Ball> more = balls_at(solid, probes.first(std::min(probes.size(), 4 * count)), threads);
+  const std::size_t served = std::min(probes.size(), 4 * count);
+  const std::vector<Ball> more = balls_at(solid, probes.first(served), threads);
   candidates.insert(candidates.end(), more.begin(), more.end());
   Choice choice(probes, static_cast<float>(9 * solid.diagonal() * solid.diagonal()), std::move(candidates), threads);
   for (std::uint32_t i = 0; i < kept; ++i) choice.choose(i);
   choice.add(placed);
   std::vector<bool> best = choice.chosen();
   double least = choice.sum();
+  std::vector<bool> is_left(probes.size(), true);
+  std::fill_n(is_left.begin(), served, false);
   for (std::size_t round = 0; round < kRounds; ++round) {
+    // Points at a rare tip may be served by no ball yet.
+    std::vector<Probe> far;
+    for (const std::size_t i : choice.farthest(placed, is_left)) {
+      is_left[i] = false;
+      far.push_back(probes[i]);
+    }
+    choice.offer(balls_at(solid, far, threads));
     const std::size_t part = std::max<std::size_t>(1, placed / (kOfRound + 2 * round));
     choice.remove(part, kept);
     choice.add(part);
@@ -183,7 +211,7 @@ std::vector<Ball> nearer_balls(const Solid& solid, std::span<const Ball> balls, 
     best = choice.chosen();
   }
   std::vector<Ball> nearer;
-  for (std::size_t i = 0; i < choice.size(); ++i) {
+  for (std::size_t i = 0; i < best.size(); ++i) {
     if (best[i]) nearer.push_back(choice.candidate(i));
   }
   // Where further balls bring nothing nearer, as in a ball.
