@@ -130,6 +130,25 @@ TEST_F(SetsForDistances, OfASphereHaveTheRequestedNumber) {
   EXPECT_GE(fit.levels.back().size(), 1u);
 }
 
+// Few probes are near the needle in the cup, and it has little volume.
+TEST_F(SetsForDistances, ReachATipThatLittleComesNear) {
+  constexpr double kLength = 0.3;
+  Mesh mesh = test::make_cup(1, 0.3, 12, 32);
+  const Shape cup(mesh);
+  double floor = cup.mesh.report.lower[2];  // of the hollow
+  while (cup.solid.contains({0, 0, floor + 1e-3})) floor += 1e-3;
+  const Point tip = {0, 0, floor + 0.9 * kLength};
+  test::append(mesh, test::moved(test::make_box({0.02, 0.02, kLength}), tip - Point{0.01, 0.01, kLength}));
+
+  SphereFitOptions options;
+  options.count = 320;
+  options.for_distances = true;
+  options.resolution = 24;
+  const SphereFit fit = fit_spheres(test::indexed(prepare_mesh(mesh).value()), options, reference_extractor()).value();
+  EXPECT_TRUE(fit.measures.inside.proved());
+  EXPECT_LT(NearestBallTree(fit.levels.back()).nearest(tip).distance, 0.1 * kLength);
+}
+
 TEST_F(SetsForDistances, AreForACountAlone) {
   const std::vector<std::function<void(SphereFitOptions&)>> changes = {
       [](SphereFitOptions& options) { options.count = 0; },

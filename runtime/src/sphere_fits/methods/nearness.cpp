@@ -37,6 +37,12 @@ class Choice {
     chosen_.resize(candidates_.size());
   }
 
+  /// Chooses the first candidates for good.
+  void keep(std::uint32_t count) {
+    kept_ = count;
+    for (std::uint32_t c = 0; c < count; ++c) choose(c);
+  }
+
   void choose(std::uint32_t candidate) {
     chosen_[candidate] = true;
     visit(candidates_[candidate], [&](std::size_t i, float cost) { least_[i] = std::min(least_[i], cost); });
@@ -64,8 +70,8 @@ class Choice {
     }
   }
 
-  /// Removes the balls without which the sum of the distances grows least; of those that are not in `kept`.
-  void remove(std::size_t count, std::size_t kept) {
+  /// Removes the balls without which the sum of the distances grows least; none of those that are kept.
+  void remove(std::size_t count) {
     std::vector<std::uint32_t> nearest(least_.size());
     std::vector<float> second(least_.size(), far_);
     std::fill(least_.begin(), least_.end(), far_);
@@ -82,7 +88,7 @@ class Choice {
     for (std::size_t i = 0; i < least_.size(); ++i) losses[nearest[i]] += static_cast<double>(second[i]) - least_[i];
     std::vector<std::pair<double, std::uint32_t>> order;
     for (std::uint32_t c = 0; c < candidates_.size(); ++c) {
-      if (chosen_[c] && c >= kept) order.emplace_back(losses[c], c);
+      if (chosen_[c] && c >= kept_) order.emplace_back(losses[c], c);
     }
     std::sort(order.begin(), order.end());
     order.resize(std::min(order.size(), count));
@@ -152,6 +158,7 @@ class Choice {
   std::vector<Ball> candidates_;
   const Threads& threads_;
   std::vector<bool> chosen_;
+  std::uint32_t kept_ = 0;
   float far_;
   std::array<std::vector<float>, 3> at_;  // the points outside, and
   std::vector<float> from_solid_;         // their distances from it
@@ -174,22 +181,97 @@ std::vector<Ball> balls_at(const Solid& solid, std::span<const Probe> probes, co
   return found;
 }
 
+/// The vertices of the mesh with the mean normals of their triangles; of more than a million every n-th.
+std::vector<Probe> vertices_of(const Solid& solid) {
+  constexpr std::size_t kMost = std::size_t{1} << 20;
+  const Mesh& mesh = solid.mesh().mesh;
+  std::vector<Point> normals(mesh.vertices.size(), Point{0, 0, 0});
+  for (const auto& [i, j, k] : mesh.triangles) {
+    const Point& a = mesh.vertices[i];
+    const Point normal = cross(mesh.vertices[j] - a, mesh.vertices[k] - a);
+    for (const std::uint32_t v : {i, j, k}) normals[v] = normals[v] + normal;
+  }
+  std::vector<Probe> vertices;
+  for (std::size_t v = 0; v < normals.size(); v += 1 + normals.size() / kMost) {
+    const double size = length(normals[v]);
+    if (size > 0) vertices.push_back({mesh.vertices[v], (1 / size) * normals[v], 0});
+  }
+  return vertices;
+}
+
+/// How far places of the boundary are from balls.
+class Gaps {
+ public:
+  Gaps(std::span<const Probe> places, const Threads& threads) : places_(places), threads_(threads) {
+    gaps_.assign(places.size(), std::numeric_limits<double>::infinity());
+  }
+  static double gap(const Probe& place, const Ball& ball) { return length(place.at - ball.centre) - ball.radius; }
+  void add(std::span<const Ball> balls) {
+    for_all(gaps_.size(), 256, threads_, [&](std::size_t i) {
+      for (const Ball& ball : balls) gaps_[i] = std::min(gaps_[i], gap(places_[i], ball));
+    });
+  }
+  std::size_t farthest() const {
+    return static_cast<std::size_t>(std::max_element(gaps_.begin(), gaps_.end()) - gaps_.begin());
+  }
+  double operator[](std::size_t place) const { return gaps_[place]; }
+  /// No ball comes nearer.
+  void leave_out(std::size_t place) { gaps_[place] = -std::numeric_limits<double>::infinity(); }
+
+ private:
+  std::span<const Probe> places_;
+  const Threads& threads_;
+  std::vector<double> gaps_;
+};
+
+/// Up to `count` balls, each next to the vertex that is then farthest from all balls, such as a tip of a finger: the
+/// interval to a body there is as wide as that, and few probes are so near. Every ball halves the gap or more.
+std::vector<Ball> balls_at_tips(const Solid& solid, std::span<const Ball> balls, std::size_t count,
+                                const Threads& threads) {
+  const std::vector<Probe> vertices = vertices_of(solid);
+  std::vector<Ball> found;
+  if (vertices.empty() || count == 0) return found;
+  Gaps gaps(vertices, threads);
+  gaps.add(balls);
+  for (std::size_t tries = 0; tries < 4 * count && found.size() < count; ++tries) {
+    threads.check();
+    const std::size_t vertex = gaps.farthest();
+    if (!(gaps[vertex] > 0)) break;
+    const std::vector<Ball> near = balls_at(solid, std::span(&vertices[vertex], 1), threads);
+    const auto best = std::ranges::min_element(near, {}, [&](const Ball& b) { return Gaps::gap(vertices[vertex], b); });
+    if (best == near.end() || Gaps::gap(vertices[vertex], *best) > 0.5 * gaps[vertex]) {
+      gaps.leave_out(vertex);
+      continue;
+    }
+    found.push_back(*best);
+    gaps.add(std::span(&*best, 1));
+  }
+  return found;
+}
+
 /// Three quarters: with more, the distances grow; with fewer, the uncovered volume does (docs/decisions.md).
 std::size_t kept_of(std::size_t count) { return count - count / 4; }
+
+/// Of those that are placed for distances, an eighth is for tips.
+std::size_t at_tips_of(std::size_t placed) { return placed / 8; }
 
 }  // namespace
 
 std::vector<Ball> nearer_balls(const Solid& solid, std::span<const Ball> balls, std::span<const Probe> probes,
                                const Threads& threads) {
   constexpr std::size_t kRounds = 4, kOfRound = 8;
-  const std::size_t count = balls.size(), kept = kept_of(count), placed = count - kept;
-  if (placed == 0) return {balls.begin(), balls.end()};
-  std::vector<Ball> candidates(balls.begin(), balls.end());
+  const std::size_t count = balls.size(), kept = kept_of(count);
+  if (kept == count) return {balls.begin(), balls.end()};
+  std::vector<Ball> candidates(balls.begin(), balls.begin() + static_cast<std::ptrdiff_t>(kept));
+  const std::vector<Ball> at_tips = balls_at_tips(solid, candidates, at_tips_of(count - kept), threads);
+  candidates.insert(candidates.end(), at_tips.begin(), at_tips.end());
+  const std::size_t fixed = candidates.size(), placed = count - fixed;
+  candidates.insert(candidates.end(), balls.begin() + static_cast<std::ptrdiff_t>(kept), balls.end());
   const std::size_t served = std::min(probes.size(), 4 * count);
   const std::vector<Ball> more = balls_at(solid, probes.first(served), threads);
   candidates.insert(candidates.end(), more.begin(), more.end());
   Choice choice(probes, static_cast<float>(9 * solid.diagonal() * solid.diagonal()), std::move(candidates), threads);
-  for (std::uint32_t i = 0; i < kept; ++i) choice.choose(i);
+  choice.keep(static_cast<std::uint32_t>(fixed));
   choice.add(placed);
   std::vector<bool> best = choice.chosen();
   double least = choice.sum();
@@ -204,7 +286,7 @@ std::vector<Ball> nearer_balls(const Solid& solid, std::span<const Ball> balls, 
     }
     choice.offer(balls_at(solid, far, threads));
     const std::size_t part = std::max<std::size_t>(1, placed / (kOfRound + 2 * round));
-    choice.remove(part, kept);
+    choice.remove(part);
     choice.add(part);
     if (!(choice.sum() < least)) continue;
     least = choice.sum();
@@ -216,7 +298,7 @@ std::vector<Ball> nearer_balls(const Solid& solid, std::span<const Ball> balls, 
   }
   // Where further balls bring nothing nearer, as in a ball.
   for (std::size_t i = kept; i < count && nearer.size() < count; ++i) {
-    if (!best[i]) nearer.push_back(balls[i]);
+    if (!best[i - kept + fixed]) nearer.push_back(balls[i]);
   }
   return nearer;
 }
