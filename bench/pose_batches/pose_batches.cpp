@@ -1,21 +1,23 @@
 // Verdicts and bounds for many poses of a solid and its copy, by balls, on the host and on a device: rows of a table.
-//   bench_pose_batches [--poses N] [--repeats N] [--device NAME] NAME SIDE INSIDE.csv COVER.csv
-// Poses: any rotation about the middle, a shift of up to one SIDE (of the box around the mesh) in any direction. The
-// methods take turns; times are medians of the repeats. "Resident": poses and answers are in the device's memory, as
-// recorded jobs leave them, and the time is the device's own.
+//   bench_pose_batches [--poses N] [--repeats N] [--device NAME | --host] NAME.body.npz
+// --host: without a device.
+// Poses: any rotation about the middle, a shift of up to the longest side of the box around the mesh in any direction.
+// The methods take turns; times are medians of the repeats. "Resident": poses and answers are in the device's memory,
+// as recorded jobs leave them, and the time is the device's own.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <random>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "../distances/measuring.h"
-#include "../unions/ball_files.h"
+#include "body_files/body_file.h"
 #include "device_commands/commands.h"
 #include "device_commands/uploads.h"
 #include "medial_vk/collisions.h"
@@ -169,41 +171,51 @@ void print_row(const std::string& name, const Method& method, const std::vector<
 int main(int argc, char** argv) {
   std::size_t poses = 1'000'000;
   int repeats = 5;
-  double side = 1;
-  std::string device, name, inside_file, cover_file;
+  bool host_only = false;
+  std::string device, file;
   CLI::App app("Verdicts and bounds for many poses of a solid and its copy, by balls.");
   app.add_option("--poses", poses, "poses of the copy")->check(CLI::PositiveNumber);
   app.add_option("--repeats", repeats, "runs, of which the median counts")->check(CLI::PositiveNumber);
-  app.add_option("--device", device, "a part of the device's name");
-  app.add_option("name", name)->required();
-  app.add_option("side", side)->required();
-  app.add_option("inside", inside_file)->required();
-  app.add_option("cover", cover_file)->required();
+  CLI::Option* named = app.add_option("--device", device, "a part of the device's name");
+  app.add_flag("--host", host_only, "without a device")->excludes(named);
+  app.add_option("body", file, "a body file")->required();
   CLI11_PARSE(app, argc, argv);
 
-  const std::vector<Body> body = {or_exit(Body::create(bench::read_balls(inside_file), bench::read_balls(cover_file)))};
-  const std::vector<PosedPair> pairs = random_pairs(poses, side, middle_of(body.front().cover()));
-  ContextOptions options;
-  options.device = device;
-  Context context = or_exit(Context::create(options));
-  DeviceBodies bodies = or_exit(DeviceBodies::create(context, body));
-  Resident resident(bodies, pairs);
+  const std::size_t slash = file.rfind('/') + 1;
+  const std::string name = file.substr(slash, file.find('.', slash) - slash);
+  const BodyFile read = or_exit(read_body_file(file));
+  const std::vector<Body> body = {or_exit(Body::create(read.inside, read.cover))};
+  const std::vector<PosedPair> pairs =
+      random_pairs(poses, bench::longest_side(read.mesh), middle_of(body.front().cover()));
   std::vector<Collision> verdicts(poses);
   std::vector<DistanceBounds> bounds(poses);
   const auto timed = [](auto work) { return [work] { return 1e-6 * bench::microseconds_each(1, work); }; };
   const auto of_verdicts = [&] { return verdicts; };
   const auto of_bounds = [&] { return verdicts_of(bounds); };
-
   std::vector<Method> methods = {
       {"verdicts: host, 1 thread", timed([&] { collide_by_balls(body, pairs, verdicts, {1}); }), of_verdicts},
       {fmt::format("verdicts: host, {} threads", std::thread::hardware_concurrency()),
        timed([&] { collide_by_balls(body, pairs, verdicts); }), of_verdicts},
-      {"verdicts: device, from and to the host", timed([&] { check(bodies.collide_by_balls(pairs, verdicts)); }),
-       of_verdicts},
-      {"verdicts: device, resident", [&] { return resident.seconds(true); }, [&] { return resident.verdicts(true); }},
-      {"bounds: host, 1 thread", timed([&] { distance_bounds(body, pairs, bounds, {1}); }), of_bounds},
-      {"bounds: device, from and to the host", timed([&] { check(bodies.distance_bounds(pairs, bounds)); }), of_bounds},
-      {"bounds: device, resident", [&] { return resident.seconds(false); }, [&] { return resident.verdicts(false); }}};
+      {"bounds: host, 1 thread", timed([&] { distance_bounds(body, pairs, bounds, {1}); }), of_bounds}};
+
+  std::optional<Context> context;
+  std::optional<DeviceBodies> bodies;
+  std::optional<Resident> resident;
+  if (!host_only) {
+    ContextOptions options;
+    options.device = device;
+    context.emplace(or_exit(Context::create(options)));
+    bodies.emplace(or_exit(DeviceBodies::create(*context, body)));
+    resident.emplace(*bodies, pairs);
+    methods.insert(methods.end(), {{"verdicts: device, from and to the host",
+                                    timed([&] { check(bodies->collide_by_balls(pairs, verdicts)); }), of_verdicts},
+                                   {"verdicts: device, resident", [&] { return resident->seconds(true); },
+                                    [&] { return resident->verdicts(true); }},
+                                   {"bounds: device, from and to the host",
+                                    timed([&] { check(bodies->distance_bounds(pairs, bounds)); }), of_bounds},
+                                   {"bounds: device, resident", [&] { return resident->seconds(false); },
+                                    [&] { return resident->verdicts(false); }}});
+  }
   std::vector<Collision> first;
   for (int repeat = 0; repeat <= repeats; ++repeat) {
     for (Method& method : methods) {
