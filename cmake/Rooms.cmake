@@ -71,11 +71,11 @@ function(_medial_vk_optimise_little target)
   endif()
 endfunction()
 
-# The headers of the standard library take a third of the time to compile a source, those of fmt and JSON as much again.
+# Headers of the standard library take up to a third of the time to compile a source, and those of fmt and JSON as much.
 function(_medial_vk_use_room_headers target part short)
-  set(headers <algorithm> <array> <atomic> <bit> <cassert> <cmath> <cstring> <functional> <limits> <map> <memory> <mutex>
-    <numbers> <numeric> <optional> <span> <sstream> <stdexcept> <string> <string_view> <system_error> <unordered_map>
-    <utility> <variant> <vector>)
+  set(headers <algorithm> <array> <atomic> <bit> <cassert> <cmath> <cstring> <functional> <limits> <map> <memory>
+    <mutex> <numbers> <numeric> <optional> <span> <sstream> <stdexcept> <string> <string_view> <system_error>
+    <unordered_map> <utility> <variant> <vector>)
   get_target_property(sources ${target} SOURCES)
   if(CMAKE_DISABLE_PRECOMPILE_HEADERS OR sources MATCHES "[.]c(;|$)")  # CMake would precompile headers for C, too
     if(part STREQUAL "library")

@@ -18,6 +18,7 @@
 #include "../helpers.h"
 #include "medial_vk/certify.h"
 #include "medial_vk/context.h"
+#include "medial_vk/extraction.h"
 #include "medial_vk/follower.h"
 #include "medial_vk/prepare.h"
 #include "sequences.h"
@@ -48,21 +49,23 @@ Spheres spheres_of(const IndexedMesh& mesh, int resolution, int repeats, Context
   }
   std::vector<double> times;
   for (int i = 0; i < repeats; ++i) {
-    times.push_back(milliseconds([&] { or_exit(extract_and_certify(mesh, options, context)); }));
+    times.push_back(milliseconds([&] { or_exit(extract_medial_spheres(mesh, options, context)); }));
   }
   result.ms = median(times);
   return result;
 }
 
-/// Of a pose; errors in percent of the solid's volume.
+/// To a pose; errors in percent of the solid's volume.
 struct Update {
   double ms, least_error, greatest_error;
 };
 std::vector<Update> updates(const IndexedMesh& mesh, const Sequence& sequence, const std::vector<Ball>& balls,
                             const FollowerOptions& options, int repeats) {
   Follower follower = or_exit(Follower::create(mesh, balls, options));
+  std::vector<std::vector<Point>> poses = {sequence.rest.vertices};
+  poses.insert(poses.end(), sequence.poses.begin(), sequence.poses.end());
   std::vector<Update> result;
-  for (const std::vector<Point>& pose : sequence.poses) {
+  for (const std::vector<Point>& pose : poses) {
     std::vector<double> times;
     for (int i = 0; i < repeats; ++i) {
       exit_unless(follower.reset());
@@ -77,21 +80,34 @@ std::vector<Update> updates(const IndexedMesh& mesh, const Sequence& sequence, c
   return result;
 }
 
+/// Volumes are those of the solid only where no triangles cross.
+void expect_no_crossings(const Sequence& sequence) {
+  Mesh mesh = sequence.rest;
+  for (const std::vector<Point>& pose : sequence.poses) {
+    mesh.vertices = pose;
+    const PreparedMesh prepared = or_exit(prepare_mesh(Mesh(mesh)));
+    if (prepared.report.closed && prepared.report.cut_faces == 0) continue;
+    std::fprintf(stderr, "%s: a pose with triangles that cross\n", sequence.name.c_str());
+    std::exit(1);
+  }
+}
+
 void run(const Sequence& sequence, int resolution, int repeats, unsigned threads, Context& context) {
   const IndexedMesh mesh = or_exit(IndexedMesh::build(or_exit(prepare_mesh(Mesh(sequence.rest)))));
   if (mesh.view().vertices.size() != sequence.rest.vertices.size()) {
     std::fprintf(stderr, "%s: a vertex is unused or there twice\n", sequence.name.c_str());
     std::exit(1);
   }
+  expect_no_crossings(sequence);
   const Spheres spheres = spheres_of(mesh, resolution, repeats, context);
   FollowerOptions published, tangent;
   published.rule = FollowRule::kPublished;
   published.threads = tangent.threads = threads;
   const std::vector<Update> before = updates(mesh, sequence, spheres.balls, published, repeats);
   const std::vector<Update> now = updates(mesh, sequence, spheres.balls, tangent, repeats);
-  for (std::size_t i = 0; i < sequence.poses.size(); ++i) {
+  for (std::size_t i = 0; i < now.size(); ++i) {
     fmt::print("| {} | {} | {} | {:.0f} | {} | {:.2f} | {:.2f} to {:.2f} | {:.2f} | {:.2f} |\n", sequence.name,
-               mesh.view().triangles.size(), spheres.balls.size(), spheres.ms, i + 1, 100 * before[i].ms / spheres.ms,
+               mesh.view().triangles.size(), spheres.balls.size(), spheres.ms, i, 100 * before[i].ms / spheres.ms,
                before[i].least_error, before[i].greatest_error, 100 * now[i].ms / spheres.ms, now[i].least_error);
     std::fflush(stdout);
   }

@@ -230,7 +230,7 @@ Sequence octopus() {
   };
   add([](int) { return -12.0; }, 1);
   add([](int) { return 25.0; }, 1.1);
-  add([](int arm) { return arm % 2 == 0 ? 30.0 : -14.0; }, 0.85);
+  add([](int arm) { return arm % 2 == 0 ? 22.0 : -14.0; }, 0.85);
   return result;
 }
 

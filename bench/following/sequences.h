@@ -1,5 +1,5 @@
-// Meshes in the poses of a motion, of the three kinds in Figure 7-4 of the source: an articulated animal, a knot and an
-// octopus that deform elastically.
+// Meshes in the poses of a motion, like the three of Figure 7-4 of the source: an articulated animal, a knot that
+// deforms elastically, and an octopus with arms that curl. In no pose do triangles cross.
 #pragma once
 
 #include <string>
@@ -19,7 +19,8 @@ struct Sequence {
 Sequence horse();
 /// A tube around a trefoil knot, in three maps that preserve volumes: a squash, a twist and both.
 Sequence knot();
-/// A head and eight arms of six bones each, which curl, two by two in the third pose, while the head is squashed.
+/// A head and eight arms of six bones each, which curl: down, up, and in turn. In the last two poses all of it is
+/// stretched or squashed, too, at the same volume.
 Sequence octopus();
 
 }  // namespace medial_vk::bench

@@ -8,6 +8,7 @@
 #include <new>
 #include <numeric>
 
+#include "ball_unions/unions/union_measurer.h"
 #include "base/host_memory.h"
 #include "base/parallel.h"
 #include "echo_queries.h"
@@ -21,6 +22,7 @@
 #include "medial_vk/follower.h"
 #include "medial_vk/shrinking_union.h"
 #include "support/solids/ball_families.h"
+#include "threads/worker_pool.h"
 
 namespace medial_vk::test {
 namespace {
@@ -162,6 +164,24 @@ TEST_F(HostMemory, RunsOutInAUnionOfBalls) {
       const auto betti = in_runtime([&] { return betti_numbers(measured.value().complex); });
       if (!betti.ok()) return betti.error();
       return bytes_of(measured.value(), betti.value());
+    });
+  }
+}
+
+// A union that fails half-way leaves nothing behind that a later one would take for its own.
+TEST_F(HostMemory, RunsOutInAUnionBeforeAnotherOne) {
+  const std::vector<Ball> next = through_a_point(20, 2, true);
+  const BallUnion expected = measure_ball_union(next, {.threads = 1, .complex = true}).value();
+  for (const std::vector<Ball>& balls : {random_balls(40, 1, 0.1, 0.3), lattice(3, 0.9)}) {
+    WorkerPool pool(1);
+    fail_every_allocation("a union before another one", [&]() -> Answer {
+      UnionMeasurer measurer;
+      const Status status = in_runtime([&] { return measurer.measure(balls, true, pool); });
+      EXPECT_TRUE(measurer.measure(next, true, pool).ok());
+      EXPECT_EQ(measurer.result().volumes, expected.volumes);
+      EXPECT_EQ(measurer.result().complex.tetrahedra, expected.complex.tetrahedra);
+      if (!status.ok()) return status.error();
+      return std::string("measured");
     });
   }
 }
@@ -357,6 +377,9 @@ TEST_F(HostMemory, RunsOutWhereBallsAreChosenAnew) {
   options.renewed = 2;
   options.renewal_factor = 1;
   std::size_t chosen = 0;
+  Follower other = Follower::create(mesh, balls, options).value();
+  ASSERT_TRUE(other.update(wide).ok());
+  const std::string expected = bytes_of_balls(other.balls());
   fail_every_allocation("balls chosen anew", [&]() -> Answer {
     Follower follower = Follower::create(mesh, balls, options).value();
     const std::string rest = bytes_of_balls(follower.balls());
@@ -364,6 +387,8 @@ TEST_F(HostMemory, RunsOutWhereBallsAreChosenAnew) {
       EXPECT_TRUE(bytes_of_balls(follower.balls()) == rest);
       EXPECT_TRUE(follower.reset().ok());
       EXPECT_TRUE(bytes_of_balls(follower.balls()) == rest);
+      EXPECT_TRUE(follower.update(wide).ok());
+      EXPECT_TRUE(bytes_of_balls(follower.balls()) == expected);
       return moved.error();
     }
     chosen = static_cast<std::size_t>(std::ranges::count(follower.origins(), FollowOrigin::kRenewed));

@@ -231,7 +231,7 @@ std::vector<Point> bent(const IndexedMesh& mesh, int frame) {
   return vertices;
 }
 
-/// True if the update has allocated.
+/// True if the update has allocated, on this thread.
 bool allocates(Follower& follower, const std::vector<Point>& frame) {
   fail_new(1);
   const Status status = in_runtime([&] { return follower.update(frame); });

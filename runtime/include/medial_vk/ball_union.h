@@ -50,7 +50,7 @@ struct BettiNumbers {
 /// equal balls, the first counts. Balls of radius 0 are no part of the complex. A point where four spheres or more meet
 /// may be among the vertices of the envelope once, several times or not at all. Lengths below 2^-98 of the largest
 /// coordinate or radius are rounded to 2^-150 of it. Time for n balls of a solid or along its medial surface, where
-/// each has a bounded number of neighbours: n log n; memory: some 700 bytes per ball. Where thousands of cells of
+/// each has a bounded number of neighbours: n log n; memory: some 800 bytes per ball. Where thousands of cells of
 /// distant balls meet, as between two rods, each ball is measured by itself, and one that overlaps k others takes time
 /// k^2. Errors: kUsage (names the ball), kOutOfMemory.
 Result<BallUnion> measure_ball_union(std::span<const Ball> balls, const BallUnionOptions& options = {});

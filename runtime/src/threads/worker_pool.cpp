@@ -11,7 +11,7 @@ WorkerPool::WorkerPool(unsigned threads) {
   const unsigned count = thread_count(threads);
   workers_.reserve(count - 1);
   try {
-    for (unsigned i = 1; i < count; ++i) workers_.emplace_back([this] { serve(); });
+    for (unsigned i = 1; i < count; ++i) workers_.emplace_back([this, i] { serve(i); });
   } catch (const std::system_error&) {
     // No further thread can be created: those that exist do all of the work.
   } catch (const std::bad_alloc&) {
@@ -36,7 +36,7 @@ void WorkerPool::run(std::size_t blocks, Loop& loop) {
     wanted_ = running_ = others;
   }
   for (std::size_t i = 0; i < others; ++i) has_begun_.notify_one();
-  loop.take_part();
+  loop.take_part(0);
   if (others == 0) return;
   std::unique_lock lock(mutex_);
   // Workers that have not woken yet are not waited for: no block is left for them.
@@ -46,7 +46,7 @@ void WorkerPool::run(std::size_t blocks, Loop& loop) {
   loop_ = nullptr;
 }
 
-void WorkerPool::serve() noexcept {
+void WorkerPool::serve(unsigned worker) noexcept {
   std::unique_lock lock(mutex_);
   while (true) {
     has_begun_.wait(lock, [&] { return is_ending_ || wanted_ > 0; });
@@ -54,7 +54,7 @@ void WorkerPool::serve() noexcept {
     --wanted_;
     Loop& loop = *loop_;
     lock.unlock();
-    loop.take_part();
+    loop.take_part(worker);
     lock.lock();
     if (--running_ == 0) has_ended_.notify_one();
   }

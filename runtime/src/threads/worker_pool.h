@@ -8,6 +8,7 @@
 #include <exception>
 #include <mutex>
 #include <thread>
+#include <type_traits>
 #include <vector>
 
 namespace medial_vk {
@@ -24,7 +25,8 @@ class WorkerPool {
 
   /// With the caller's.
   unsigned threads() const { return static_cast<unsigned>(workers_.size()) + 1; }
-  /// Calls body(i) for every i in [0, count), as parallel_for() does. Allocates nothing.
+  /// Calls body(i), or body(i, worker), for every i in [0, count), as parallel_for() does. Calls at the same time have
+  /// different workers, numbers below threads(). Allocates nothing.
   template <class Body>
   void run(std::size_t count, std::size_t block, const Body& body) {
     LoopOf<Body> loop(count, block, body);
@@ -37,7 +39,7 @@ class WorkerPool {
   class Loop {
    public:
     virtual ~Loop() = default;
-    virtual void take_part() noexcept = 0;
+    virtual void take_part(unsigned worker) noexcept = 0;
   };
 
   template <class Body>
@@ -45,10 +47,10 @@ class WorkerPool {
    public:
     LoopOf(std::size_t count, std::size_t block, const Body& body) : count_(count), block_(block), body_(body) {}
 
-    void take_part() noexcept override {
+    void take_part(unsigned worker) noexcept override {
       try {
         for (std::size_t begin = next_.fetch_add(block_); begin < count_; begin = next_.fetch_add(block_)) {
-          for (std::size_t i = begin; i < std::min(begin + block_, count_); ++i) body_(i);
+          for (std::size_t i = begin; i < std::min(begin + block_, count_); ++i) call(i, worker);
         }
       } catch (...) {
         const std::lock_guard lock(mutex_);
@@ -62,6 +64,14 @@ class WorkerPool {
     }
 
    private:
+    void call(std::size_t i, unsigned worker) const {
+      if constexpr (std::is_invocable_v<const Body&, std::size_t, unsigned>) {
+        body_(i, worker);
+      } else {
+        body_(i);
+      }
+    }
+
     const std::size_t count_, block_;
     const Body& body_;
     std::atomic<std::size_t> next_ = 0;
@@ -71,7 +81,7 @@ class WorkerPool {
 
   /// On the caller's thread and up to `blocks` - 1 others; returns once all of them have ended.
   void run(std::size_t blocks, Loop& loop);
-  void serve() noexcept;
+  void serve(unsigned worker) noexcept;
 
   std::mutex mutex_;
   std::condition_variable has_begun_, has_ended_;

@@ -23,7 +23,11 @@ void expect_equal_unions(const BallUnion& a, const BallUnion& b) {
   EXPECT_EQ(a.complex.edges, b.complex.edges);
   EXPECT_EQ(a.complex.triangles, b.complex.triangles);
   EXPECT_EQ(a.complex.tetrahedra, b.complex.tetrahedra);
-  EXPECT_EQ(a.vertices.size(), b.vertices.size());
+  ASSERT_EQ(a.vertices.size(), b.vertices.size());
+  for (std::size_t i = 0; i < a.vertices.size(); ++i) {
+    EXPECT_EQ(a.vertices[i].at, b.vertices[i].at);
+    EXPECT_EQ(a.vertices[i].balls, b.vertices[i].balls);
+  }
 }
 
 /// Two rods that pass each other: n^2 / 4 tetrahedra, so that each ball is measured by itself.

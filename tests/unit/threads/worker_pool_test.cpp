@@ -29,6 +29,21 @@ TEST(WorkerPool, EveryItemOnceInEveryLoop) {
   }
 }
 
+// What a body keeps for its worker is used by one thread at a time.
+TEST(WorkerPool, NoTwoCallsAtATimeHaveOneWorker) {
+  WorkerPool pool(4);
+  EXPECT_LE(pool.threads(), 4u);
+  std::vector<std::atomic<int>> running(pool.threads());
+  std::atomic<int> done = 0;
+  pool.run(2000, 1, [&](std::size_t, unsigned worker) {
+    ASSERT_LT(worker, running.size());
+    EXPECT_EQ(running[worker].fetch_add(1), 0);
+    --running[worker];
+    ++done;
+  });
+  EXPECT_EQ(done, 2000);
+}
+
 TEST(WorkerPool, ALoopAfterOneThatThrew) {
   WorkerPool pool(3);
   std::atomic<int> running = 0, done = 0;

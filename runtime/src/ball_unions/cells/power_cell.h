@@ -46,7 +46,7 @@ class PowerCell {
   /// Starts a cell: a box that holds ball i with a margin.
   void start(std::uint32_t i);
   /// Starts with the whole cell, cut to that box. Precondition: the triangulation is of the same balls, and its far
-  /// points are among those given to the constructor.
+  /// points are among those given to the constructor or to use().
   void start(std::uint32_t i, const RegularTriangulation& triangulation);
   /// Cuts by the plane between the cell's ball and ball j, which has not cut it before. False if nothing was cut off.
   bool clip(std::uint32_t j);

@@ -67,18 +67,19 @@ void BallInsertion::insert(std::uint32_t ball) {
 }
 
 void BallInsertion::take(std::vector<Tetrahedron>& result) {
-  names_.assign(tetrahedra_.size(), 0);
-  for (const std::uint32_t t : free_) names_[t] = kNone;
+  std::vector<std::uint32_t>& names = marks_;  // which are not used any more
+  std::fill(names.begin(), names.end(), 0);
+  for (const std::uint32_t t : free_) names[t] = kNone;
   std::uint32_t count = 0;
   for (std::size_t t = 0; t < tetrahedra_.size(); ++t) {
-    if (names_[t] == kNone) continue;
-    names_[t] = count;
+    if (names[t] == kNone) continue;
+    names[t] = count;
     tetrahedra_[count++] = tetrahedra_[t];
   }
   tetrahedra_.resize(count);
   for (Tetrahedron& t : tetrahedra_) {
     for (std::uint32_t& neighbour : t.neighbours) {
-      if (neighbour != kNone) neighbour = names_[neighbour];
+      if (neighbour != kNone) neighbour = names[neighbour];
     }
   }
   result.swap(tetrahedra_);  // whose memory serves the next triangulation

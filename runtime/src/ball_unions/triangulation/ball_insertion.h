@@ -83,7 +83,6 @@ class BallInsertion {
   // by tetrahedron: twice the number of the last insertion that tested it; 1 more: in its cavity
   std::vector<std::uint32_t> marks_;
   std::vector<std::uint32_t> free_;
-  std::vector<std::uint32_t> names_;  // by tetrahedron, for take()
   std::uint32_t last_ = 0, stamp_ = 0;
 
   // State of the current insertion.

@@ -109,14 +109,10 @@ void RegularTriangulation::list_stars() {
 // Computed once here, not in each of the four cells.
 void RegularTriangulation::place_corners(WorkerPool& pool) {
   corners_.resize(tetrahedra_.size());
-  const std::size_t blocks = (tetrahedra_.size() + kCornersOfThread - 1) / kCornersOfThread;
-  while (exact_.size() < blocks) exact_.push_back(std::make_unique<ExactCorners>());
-  pool.run(blocks, 1, [&](std::size_t block) {
-    ExactSide& exact = exact_[block]->side;
-    exact.use(balls_);
-    const std::size_t end = std::min((block + 1) * kCornersOfThread, tetrahedra_.size());
-    for (std::size_t t = block * kCornersOfThread; t < end; ++t) corners_[t] = place_corner(tetrahedra_[t], exact);
-  });
+  while (exact_.size() < pool.threads()) exact_.push_back(std::make_unique<ExactCorners>());
+  for (const auto& exact : exact_) exact->side.use(balls_);
+  pool.run(tetrahedra_.size(), kCornersOfThread,
+           [&](std::size_t t, unsigned worker) { corners_[t] = place_corner(tetrahedra_[t], exact_[worker]->side); });
 }
 
 RegularTriangulation::Corner RegularTriangulation::place_corner(const Tetrahedron& t, ExactSide& exact) const {

@@ -48,7 +48,7 @@ class RegularTriangulation {
   /// No balls.
   RegularTriangulation() = default;
   /// The same in the memory of the triangulation before and of `insertion`; false where build() has no value, and then
-  /// this object holds no triangulation. Allocates nothing where the memory of an earlier call suffices.
+  /// this object holds no triangulation. Allocates nothing where the memory of the two calls before suffices.
   bool rebuild(std::span<const Ball> balls, std::span<const std::uint32_t> order, BallInsertion& insertion,
                WorkerPool& pool);
 
@@ -85,7 +85,7 @@ class RegularTriangulation {
   std::vector<std::uint32_t> around_;
   std::vector<std::uint32_t> rounds_;                 // all balls, in the order in which they are added
   std::vector<std::uint32_t> counts_;                 // by ball, for list_stars()
-  std::vector<std::unique_ptr<ExactCorners>> exact_;  // by block of tetrahedra
+  std::vector<std::unique_ptr<ExactCorners>> exact_;  // by worker
 };
 
 }  // namespace medial_vk

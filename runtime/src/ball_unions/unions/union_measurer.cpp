@@ -16,8 +16,7 @@ namespace medial_vk {
 namespace {
 
 /// Number of consecutive balls that one thread measures. It depends only on their total number, so that results are the
-/// same to the byte for any number of threads. Every block has a PowerCell, which holds a table of all balls: at most
-/// 65 of these.
+/// same to the byte for any number of threads.
 std::size_t block_of(std::size_t balls) { return std::max<std::size_t>(balls / 64, 64); }
 
 std::size_t blocks_of(std::size_t balls) { return (balls + block_of(balls) - 1) / block_of(balls); }
@@ -67,11 +66,10 @@ void UnionMeasurer::measure_scaled(bool complex, WorkerPool& pool) {
 }
 
 void UnionMeasurer::measure_by_triangulation(WorkerPool& pool) {
-  const std::size_t blocks = blocks_of(balls_.size());
-  while (cells_.size() < blocks) cells_.push_back(std::make_unique<PowerCell>(triangulation_.balls()));
-  pool.run(blocks, 1, [&](std::size_t block) {
-    PowerCell& cell = *cells_[block];
-    cell.use(triangulation_.balls());
+  while (cells_.size() < pool.threads()) cells_.push_back(std::make_unique<PowerCell>(triangulation_.balls()));
+  for (const auto& cell : cells_) cell->use(triangulation_.balls());
+  pool.run(blocks_of(balls_.size()), 1, [&](std::size_t block, unsigned worker) {
+    PowerCell& cell = *cells_[worker];
     measure_block(block, [&](std::uint32_t i) -> const PowerCell& {
       cell.start(i, triangulation_);
       cell.sharpen();

@@ -24,8 +24,8 @@ class UnionMeasurer {
   UnionMeasurer& operator=(const UnionMeasurer&) = delete;
 
   /// measure_ball_union() on the threads of a pool. Without the dual complex it allocates nothing where the memory of
-  /// earlier calls suffices, unless the balls have no triangulation of a linear size. The result is in result() until
-  /// the next call. Errors: those of measure_ball_union(); result() is then undefined.
+  /// the two calls before suffices, unless the balls have no triangulation of a linear size. The result is in result()
+  /// until the next call. Errors: those of measure_ball_union(); result() is then undefined.
   Status measure(std::span<const Ball> balls, bool complex, WorkerPool& pool);
   /// May be taken.
   BallUnion& result() { return result_; }
@@ -49,7 +49,7 @@ class UnionMeasurer {
   std::vector<std::uint32_t> order_;
   BallInsertion insertion_;
   RegularTriangulation triangulation_;
-  std::vector<std::unique_ptr<PowerCell>> cells_;  // by block of balls
+  std::vector<std::unique_ptr<PowerCell>> cells_;  // by worker; each holds a table of all balls
   std::vector<Chunk> chunks_;                      // by block of balls, if there is to be a complex
   BallUnion result_;
 };

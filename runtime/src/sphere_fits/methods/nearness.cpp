@@ -192,7 +192,7 @@ std::vector<Probe> vertices_of(const Solid& solid) {
     for (const std::uint32_t v : {i, j, k}) normals[v] = normals[v] + normal;
   }
   std::vector<Probe> vertices;
-  for (std::size_t v = 0; v < normals.size(); v += 1 + normals.size() / kMost) {
+  for (std::size_t v = 0; v < normals.size(); v += (normals.size() + kMost - 1) / kMost) {
     const double size = length(normals[v]);
     if (size > 0) vertices.push_back({mesh.vertices[v], (1 / size) * normals[v], 0});
   }
@@ -215,8 +215,13 @@ class Gaps {
     return static_cast<std::size_t>(std::max_element(gaps_.begin(), gaps_.end()) - gaps_.begin());
   }
   double operator[](std::size_t place) const { return gaps_[place]; }
-  /// No ball comes nearer.
-  void leave_out(std::size_t place) { gaps_[place] = -std::numeric_limits<double>::infinity(); }
+  /// All places so near to one.
+  void leave_out(std::size_t place, double distance) {
+    const Ball around = {places_[place].at, distance};
+    for (std::size_t i = 0; i < gaps_.size(); ++i) {
+      if (gap(places_[i], around) <= 0) gaps_[i] = -std::numeric_limits<double>::infinity();
+    }
+  }
 
  private:
   std::span<const Probe> places_;
@@ -225,9 +230,11 @@ class Gaps {
 };
 
 /// Up to `count` balls, each next to the vertex that is then farthest from all balls, such as a tip of a finger: the
-/// interval to a body there is as wide as that, and few probes are so near. Every ball halves the gap or more.
+/// interval to a body there is as wide as that, and few probes are so near. Every ball halves the gap or more. Where
+/// none does, as on a thin sheet or within the solid, the vertices around are left out, too.
 std::vector<Ball> balls_at_tips(const Solid& solid, std::span<const Ball> balls, std::size_t count,
                                 const Threads& threads) {
+  constexpr double kOutside = 1e-6;
   const std::vector<Probe> vertices = vertices_of(solid);
   std::vector<Ball> found;
   if (vertices.empty() || count == 0) return found;
@@ -237,10 +244,14 @@ std::vector<Ball> balls_at_tips(const Solid& solid, std::span<const Ball> balls,
     threads.check();
     const std::size_t vertex = gaps.farthest();
     if (!(gaps[vertex] > 0)) break;
-    const std::vector<Ball> near = balls_at(solid, std::span(&vertices[vertex], 1), threads);
-    const auto best = std::ranges::min_element(near, {}, [&](const Ball& b) { return Gaps::gap(vertices[vertex], b); });
-    if (best == near.end() || Gaps::gap(vertices[vertex], *best) > 0.5 * gaps[vertex]) {
-      gaps.leave_out(vertex);
+    const Probe& tip = vertices[vertex];
+    std::vector<Ball> near;
+    if (!solid.contains(tip.at + kOutside * solid.diagonal() * tip.direction)) {
+      near = balls_at(solid, std::span(&tip, 1), threads);
+    }
+    const auto best = std::ranges::min_element(near, {}, [&](const Ball& ball) { return Gaps::gap(tip, ball); });
+    if (best == near.end() || Gaps::gap(tip, *best) > 0.5 * gaps[vertex]) {
+      gaps.leave_out(vertex, 0.5 * gaps[vertex]);
       continue;
     }
     found.push_back(*best);
