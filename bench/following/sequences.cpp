@@ -192,7 +192,7 @@ Sequence horse() {
   Sequence result{"horse", skin(bones, 0.05, 0.05), {}};
   // Hip and knee of the hind and of the fore legs, neck and tail, degrees.
   constexpr std::array<std::array<double, 6>, 3> kMoments = {
-      {{25, -35, -30, 20, 10, 25}, {-35, 20, 30, -45, -15, 40}, {40, -60, 45, -70, 20, -20}}};
+      {{20, -25, -25, 15, 10, 10}, {-20, 10, 15, -15, 12, 8}, {15, -20, 12, -18, 10, 10}}};
   const Vector3d side = Vector3d::UnitY();
   for (const auto& [hip, knee, shoulder, elbow, neck, tail] : kMoments) {
     std::vector<Turn> turns = {{2, side, neck}, {3, side, -neck}, {4, side, tail}};
@@ -229,8 +229,8 @@ Sequence octopus() {
                                   [factor](const Vector3d& p) { return squashed(p, factor); }));
   };
   add([](int) { return -12.0; }, 1);
-  add([](int) { return 25.0; }, 1.1);
-  add([](int arm) { return arm % 2 == 0 ? 22.0 : -14.0; }, 0.85);
+  add([](int) { return 15.0; }, 1.1);
+  add([](int arm) { return arm % 2 == 0 ? 14.0 : -11.0; }, 0.85);
   return result;
 }
 

@@ -15,7 +15,7 @@ struct Sequence {
   std::vector<std::vector<Point>> poses;  ///< The vertices of `rest` in each of them.
 };
 
-/// Made of bones with skin, whose legs, neck and tail turn at their joints: three moments of a gallop.
+/// Made of bones with skin, whose legs, neck and tail turn at their joints: three moments of a walk.
 Sequence horse();
 /// A tube around a trefoil knot, in three maps that preserve volumes: a squash, a twist and both.
 Sequence knot();

@@ -180,8 +180,7 @@ TEST_F(HostMemory, RunsOutInAUnionBeforeAnotherOne) {
       EXPECT_TRUE(measurer.measure(next, true, pool).ok());
       EXPECT_EQ(measurer.result().volumes, expected.volumes);
       EXPECT_EQ(measurer.result().complex.tetrahedra, expected.complex.tetrahedra);
-      if (!status.ok()) return status.error();
-      return std::string("measured");
+      return status.ok() ? Answer(std::string("measured")) : status.error();
     });
   }
 }
