@@ -27,7 +27,7 @@ class Planes {
       float_of_b_[j] = static_cast<float>(of_b_[j]);
     }
     shift_ = dot(pose.shift, direction);
-    float_shift_ = static_cast<float>(dot(shift_of_trees, direction));
+    shift_of_trees_ = dot(shift_of_trees, direction);
   }
 
   /// A lower bound of the distance between a triangle of a and one of b, each in its own frame.
@@ -57,11 +57,14 @@ class Planes {
     return along(b.centre, float_of_b_) - half_width(b, float_of_b_);
   }
 
-  bool are_apart(float end, float start, float reach) const { return start >= end + (reach - float_shift_); }
+  /// How far behind the end of a, in the frames of the trees, b begins where the two are apart by `reach`. For bodies
+  /// that are far from each other the reach and the shift are large and nearly equal, so the difference is one of
+  /// doubles.
+  float without_shift(double reach) const { return rounded_up(reach - shift_of_trees_); }
 
-  /// Bit 8 k + j is set unless element k of a and element j of b are apart by at least `reach`.
-  MEDIAL_VK_INLINE std::uint64_t pairs_within(const EightFloats& end, const EightFloats& start, float reach) const {
-    const EightFloats nearer = end + (reach - float_shift_);
+  /// Bit 8 k + j is set unless element j of b begins behind element k of a by at least `reach`, without the shift.
+  MEDIAL_VK_INLINE static std::uint64_t pairs_within(const EightFloats& end, const EightFloats& start, float reach) {
+    const EightFloats nearer = end + reach;
     const std::array<float, kWidth> starts = stored(start);
     EightInts pairs{};
     for (std::size_t j = 0; j < kWidth; ++j) pairs |= (starts[j] < nearer) & (std::int32_t{1} << j);
@@ -81,8 +84,7 @@ class Planes {
 
   Point of_a_ = {0, 0, 0}, of_b_ = {0, 0, 0};
   std::array<float, 3> float_of_a_ = {0, 0, 0}, float_of_b_ = {0, 0, 0};
-  double shift_ = 0;
-  float float_shift_ = 0;
+  double shift_ = 0, shift_of_trees_ = 0;
 };
 
 FloatBall ball_of(const BodyNode& node, std::uint32_t k) {
@@ -123,7 +125,7 @@ class TrianglesGoal {
       const Planes& planes = planes_[i];
       const EightFloats end = is_lowest_a ? planes.end_of(a_.triangles(node_a)) : planes.end_of(a_.boxes(node_a));
       const EightFloats start = is_lowest_b ? planes.start_of(b_.triangles(node_b)) : planes.start_of(b_.boxes(node_b));
-      pairs &= planes.pairs_within(end, start, reach_by_planes_);
+      pairs &= Planes::pairs_within(end, start, reach_by_planes_[i]);
     }
     return pairs;
   }
@@ -177,7 +179,7 @@ class TrianglesGoal {
     if (!of_b.is_of(node_b, directions_)) {
       of_b = {node_b, directions_, -greatest_of(-planes_[0].start_of(b_.triangles(node_b)))};
     }
-    return planes_[0].are_apart(of_a.value, of_b.value, reach_by_planes_);
+    return of_b.value >= of_a.value + reach_by_planes_[0];
   }
 
   double proved_now() const { return std::min({proved_, target_, waiting_}); }
@@ -236,11 +238,22 @@ class TrianglesGoal {
     if (count_ < kMostPlanes) ++count_;
     if (!is_best && count_ > 1) {
       planes_[1] = planes;
-      return;
+    } else {
+      planes_[1] = planes_[0];
+      planes_[0] = planes;
+      ++directions_;
     }
-    planes_[1] = planes_[0];
-    planes_[0] = planes;
-    ++directions_;
+    shorten_by_planes();
+  }
+
+  /// Let R be the sum of both reaches and u = 2^-24. A corner has an error of u R, and so has a direction; a product
+  /// with it 4 u R more: 12 u R for both sides, and less than 22 u R with boxes (docs/theory.md, "Exact distances").
+  /// What remains of the target without the shift is rounded once, and a sum with it: 7 u R if it is below 3 R.
+  /// Otherwise it decides by itself.
+  void shorten_by_planes() {
+    const double reach = a_.nodes().reach() + b_.nodes().reach();
+    const double error = 36 * 0x1p-24 * reach + 0x1p-59 + 0x1p-48 * (placement_.lengths() + placement_.distance());
+    for (std::size_t i = 0; i < count_; ++i) reach_by_planes_[i] = planes_[i].without_shift(target_ + error);
   }
 
   /// Pairs at `target_` and beyond no longer matter: the nearest two triangles are not among them, or the interval is
@@ -252,10 +265,7 @@ class TrianglesGoal {
     const double most = std::max(between_inner_balls_ + 2 * float_error_, 4 * float_error_);
     target_ = std::min({best_.upper - options_.tolerance, most, limit}) - 4 * error_;
     reach_ = std::min(kFarther, rounded_up(target_ + float_error_));
-    // A corner has an error of u M, u = 2^-24, and so has a direction; a product with it 4 u M more: 12 u M for both
-    // sides, and 8 u M for the shift and the last differences. Boxes have 27 u M in all (docs/theory.md, "Exact
-    // distances"). float_error_ is at least 18 u M.
-    reach_by_planes_ = std::min(kFarther, rounded_up(target_ + 2 * float_error_));
+    shorten_by_planes();
   }
 
   const SurfaceTree& a_;
@@ -269,10 +279,11 @@ class TrianglesGoal {
   double proved_ = std::numeric_limits<double>::infinity();   // no pair that was taken is closer
   double waiting_ = std::numeric_limits<double>::infinity();  // no pair that waits is closer
   double proved_before_ = 0;                                  // no pair at all is closer
-  float reach_ = 0, reach_by_planes_ = 0;
+  float reach_ = 0;
   float between_inner_balls_ = kFarther;  // the distance of the solids is at most this and two errors
   std::size_t count_ = 0;
   std::array<Planes, kMostPlanes> planes_;
+  std::array<float, kMostPlanes> reach_by_planes_ = {};  // without the shift
   mutable std::array<Support, kSupports> ends_, starts_;
   std::uint32_t directions_ = 0;
 };
