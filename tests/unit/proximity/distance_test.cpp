@@ -241,6 +241,18 @@ TEST(Distance, OfFarSolidsHoldsTheirs) {
   EXPECT_EQ(beyond.upper, std::numeric_limits<double>::infinity());
 }
 
+// Where the balls of the trees, in float, cannot tell one pair of nodes from another: there are 10^8 pairs of
+// triangles.
+TEST(Distance, OfFarSolidsTakesFewComparisons) {
+  const Body a = body_of(make_torus(0.5, 0.2, 100, 50));
+  DistanceOptions few;
+  few.most_comparisons = 20'000;
+  for (const double far : {1e4, 1e6, 1e9}) {
+    const Distance found = distance(a, a, make_pose({far, -far, 0.5 * far}, {1, 2, 3}), few).value();
+    EXPECT_LE(found.upper - found.lower, rounding(4 * far)) << far;
+  }
+}
+
 TEST(Distance, OfManyPosesIsThatOfEach) {
   Random random(4);
   const Body a = body_of(make_torus(0.5, 0.2, 20, 30)), b = body_of(make_l_shape(1, 0.3, 0.4));
