@@ -8,7 +8,8 @@
 namespace medial_vk {
 
 /// Moves the ball along its medial sheet, in the direction in which the union grows most to first order, by the ball's
-/// step, and adapts the step. The ball stays where no greatest ball is found, or where nothing of it is exposed.
+/// step, and adapts the step. The ball stays where no greatest ball is found, where nothing of it is exposed, or where
+/// the union would lose more than a little by the move, to first order.
 void ascend(const MovingSurface& surface, const Exposure& exposure, TrackedBall& tracked);
 
 }  // namespace medial_vk

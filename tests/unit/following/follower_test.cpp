@@ -142,6 +142,34 @@ TEST(Follower, StatesAreThoseOfTheBalls) {
   EXPECT_EQ(state(options, 0.4), FollowState::kFlat);
 }
 
+// A ball in a tube touches along a circle, and the second contact that is found may be a neighbour of the first, which
+// says nothing about the medial axis. Steps must not leave it.
+TEST(Follower, StepsDoNotLoseTheAxisOfATube) {
+  Example tube(test::make_capsule(0.3, 3, 48), 0);
+  const MeshReport& report = tube.mesh.prepared().report;
+  const Point middle = 0.5 * (report.lower + report.upper), half = 0.5 * (report.upper - report.lower);
+  const auto axis = static_cast<std::size_t>(std::max_element(half.begin(), half.end()) - half.begin());
+  for (int i = 0; i < 24; ++i) {
+    Point centre = middle;
+    centre[axis] += (half[axis] - 0.32) * (i / 11.5 - 1);
+    tube.balls.push_back({centre, 0.29});
+  }
+  FollowerOptions options;
+  Follower without = tube.follower(options);
+  options.steps = 1;
+  Follower with = tube.follower(options);
+  for (int i = 1; i <= 20; ++i) {
+    Frame frame = tube.rest();
+    for (Point& p : frame) {
+      const double width = 1 + 0.03 * std::sin(0.15 * i) * std::sin(3 * p[axis]);
+      for (std::size_t k = 0; k < 3; ++k) p[k] = k == axis ? p[k] : middle[k] + width * (p[k] - middle[k]);
+    }
+    ASSERT_TRUE(without.update(frame));
+    ASSERT_TRUE(with.update(frame));
+    EXPECT_GE(with.measure().value().ball_volume, 0.999 * without.measure().value().ball_volume) << i;
+  }
+}
+
 TEST(Follower, ResultsDoNotDependOnThreads) {
   const Example example = torus();
   FollowerOptions options;
