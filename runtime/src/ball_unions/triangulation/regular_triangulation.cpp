@@ -15,8 +15,6 @@ namespace {
 constexpr std::size_t kMostPerBall = 24, kMostAnyway = 4096;  // tetrahedra
 constexpr std::size_t kCornersOfThread = 4096;                // that are placed at a time
 
-double largest_side(const Point& p) { return std::max({std::fabs(p[0]), std::fabs(p[1]), std::fabs(p[2])}); }
-
 /// The round in which a ball is added: half of all in the last, half of the others in the one before, and so on.
 std::size_t round_of(std::uint32_t ball) {
   std::uint64_t bits = (ball + 1) * 0x9e3779b97f4a7c15u;
@@ -80,9 +78,9 @@ void RegularTriangulation::add_far_points() {
     }
   }
   if (balls_.empty()) low = high = {};
-  const Point middle = 0.5 * (low + high);
+  const Point middle = 0.5 * (low + high), sides = high - low;
   // Large enough that the rounding of the middle, 2^-53, and of radii next to it does not matter.
-  const double far = 16 * std::max(0.5 * largest_side(high - low), 0x1p-40);
+  const double far = 16 * std::max(0.5 * std::ranges::max(sides), 0x1p-40);
   for (const Point& sign : {Point{-1, -1, -1}, Point{1, 1, -1}, Point{-1, 1, 1}, Point{1, -1, 1}}) {
     balls_.push_back({middle + far * sign, 0});
   }
