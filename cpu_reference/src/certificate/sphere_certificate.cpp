@@ -111,21 +111,35 @@ class TriangleParts {
 };
 
 /// The points that three spheres have in common.
+///
+/// A cavity of the union has, in every direction, a farthest point, where the direction is in the cone of the inward
+/// normals of three spheres. If the centres are on one line but for a sine s at the smallest ball, and the common circle
+/// has a radius of at least g / 100, g the greatest radius, these normals span a spherical triangle of area at most
+/// 2 (4 s) / (4 / 100^2): fewer than 10^8 triples with s < 10^-12 leave most directions to other triples. So they have no
+/// point to test, and rounding, which decides where their planes meet, has no say.
 class Corner {
  public:
-  Corner(const UnionBall& a, const UnionBall& b, const UnionBall& c) : spheres_{&a, &b, &c} {
+  Corner(const UnionBall& one, const UnionBall& two, const UnionBall& three) : spheres_{&one, &two, &three} {
+    std::sort(spheres_.begin(), spheres_.end(),
+              [](const UnionBall* left, const UnionBall* right) { return left->radius < right->radius; });
     // Two planes of equal power, and their common line.
+    const UnionBall &a = *spheres_[0], &b = *spheres_[1], &c = *spheres_[2];
     const Vector3d n1 = b.centre - a.centre, n2 = c.centre - a.centre;
-    const Vector3d along = n1.cross(n2);
-    if (along.squaredNorm() == 0) return;
+    if (n1.isZero(0) || n2.isZero(0)) return;
     const double k1 = (n1.squaredNorm() + (a.radius - b.radius) * (a.radius + b.radius)) / 2;
     const double k2 = (n2.squaredNorm() + (a.radius - c.radius) * (a.radius + c.radius)) / 2;
+    const Vector3d along = n1.cross(n2);
+    const double sine = along.norm() / (n1.norm() * n2.norm());
+    if (sine < kCollinear) {
+      touch(n1.normalized(), k1 / n1.norm(), k2 / n2.dot(n1.normalized()));
+      return;
+    }
     Eigen::Matrix3d planes;  // of unit normals: the rank does not depend on the unit of length
     planes << n1.normalized().transpose(), n2.normalized().transpose(), along.normalized().transpose();
     const Vector3d foot = planes.fullPivLu().solve(Vector3d(k1 / n1.norm(), k2 / n2.norm(), 0));
+    const double foot_error = 32 * kUnit * c.radius / sine;
     const double squared = (a.radius - foot.norm()) * (a.radius + foot.norm());
-    const double greatest = std::max({a.radius, b.radius, c.radius});
-    if (squared < -1e-9 * greatest * greatest) return;
+    if (squared < -(1e-9 * c.radius + 2 * foot_error) * c.radius) return;
     const Vector3d up = std::sqrt(std::max(0.0, squared)) * along.normalized();
     points_ = {a.centre + foot + up, a.centre + foot - up};
     exists_ = true;
@@ -152,6 +166,21 @@ class Corner {
   }
 
  private:
+  static constexpr double kCollinear = 1e-12;
+
+  /// Spheres with their centres on one line: `first` and `second` are the places, from the smallest ball along the line,
+  /// of its circles with the others. The point on the line stands for circles that are small: error() reaches them.
+  void touch(const Vector3d& along, double first, double second) {
+    const UnionBall& a = *spheres_[0];
+    const double greatest = spheres_[2]->radius;
+    const double squared = (a.radius - first) * (a.radius + first);
+    const double small = 1e-4 * greatest * greatest, rounding = 1e-9 * greatest * greatest;
+    if (squared < -rounding || squared > small) return;
+    if (std::abs(first - second) > 4 * std::sqrt(std::max(0.0, squared) + rounding)) return;
+    points_ = {a.centre + first * along, a.centre + first * along};
+    exists_ = true;
+  }
+
   std::array<const UnionBall*, 3> spheres_;
   std::array<Vector3d, 2> points_;
   bool exists_ = false;

@@ -72,6 +72,26 @@ TEST(SphereCertificateOfAnySize, CoversAreProvedInAnyUnit) {
   }
 }
 
+// Any three of the spheres meet in no point, or in a circle where rounding alone decides.
+TEST(SphereCertificateOfTubes, BallsOnOneLineCoverACapsule) {
+  const PreparedMesh mesh = prepare(make_capsule(0.3, 2, 24));
+  std::vector<Ball> balls;
+  for (int k = 0; k <= 40; ++k) {
+    const double off = k % 3 * 2.8e-17;
+    balls.push_back({{off, k % 2 * 5.6e-17 - off, -1 + 0.05 * k}, 0.31 + 0.001 * (k % 4)});
+  }
+  const auto both_agree = [&] {
+    const bool proved = prove_cover(Solid::build(test::indexed(mesh)).value(), balls).value().proved();
+    EXPECT_EQ(proved, reference::check_cover(test::to_reference(mesh), test::to_reference(balls)).passed());
+    return proved;
+  };
+  EXPECT_TRUE(both_agree());
+  balls[20].radius = 0.2;  // its neighbours cover its part of the boundary
+  EXPECT_TRUE(both_agree());
+  balls.erase(balls.begin() + 19, balls.begin() + 22);
+  EXPECT_FALSE(both_agree());
+}
+
 TEST_F(SphereCertificate, BoundaryThatSeveralBallsShare) {
   // There is one ball for each octant; all pass through the middles of their neighbours' edges.
   std::vector<Ball> octants;
