@@ -113,10 +113,10 @@ class TriangleParts {
 /// The points that three spheres have in common.
 ///
 /// A cavity of the union has, in every direction, a farthest point, where the direction is in the cone of the inward
-/// normals of three spheres. If the centres are on one line but for a sine s at the smallest ball, and the common circle
-/// has a radius of at least g / 100, g the greatest radius, these normals span a spherical triangle of area at most
-/// 2 (4 s) / (4 / 100^2): fewer than 10^8 triples with s < 10^-12 leave most directions to other triples. So they have no
-/// point to test, and rounding, which decides where their planes meet, has no say.
+/// normals of three spheres. If the centres are on one line but for a sine s at the smallest ball, and the common
+/// circle has a radius of at least g / 100, g the greatest radius, these normals span a spherical triangle of area at
+/// most 2 (4 s) / (4 / 100^2): fewer than 10^8 triples with s < 10^-12 leave most directions to other triples. So they
+/// have no point to test, and rounding, which decides where their planes meet, has no say.
 class Corner {
  public:
   Corner(const UnionBall& one, const UnionBall& two, const UnionBall& three) : spheres_{&one, &two, &three} {
@@ -168,8 +168,9 @@ class Corner {
  private:
   static constexpr double kCollinear = 1e-12;
 
-  /// Spheres with their centres on one line: `first` and `second` are the places, from the smallest ball along the line,
-  /// of its circles with the others. The point on the line stands for circles that are small: error() reaches them.
+  /// Spheres with their centres on one line: `first` and `second` are the places, from the smallest ball along the
+  /// line, of its circles with the others. The point on the line stands for circles that are small: error() reaches
+  /// them.
   void touch(const Vector3d& along, double first, double second) {
     const UnionBall& a = *spheres_[0];
     const double greatest = spheres_[2]->radius;

@@ -49,7 +49,7 @@ struct FollowerOptions {
 
 enum class FollowState : std::uint8_t {
   kMedial,  ///< None of the others.
-  kFlat,    ///< It has two contacts with a small object angle. kTangent only.
+  kFlat,    ///< The two contacts that are followed have a small object angle. kTangent only.
   kShrunk,  ///< Its radius is a small share of that in the rest pose, or of that with which it was chosen anew.
   /// Lost in this frame, with radius 0: no ball of 2^-30 of the longest side or more is known to be inside at its
   /// contacts. It may return in a later frame.

@@ -11,6 +11,7 @@
 
 #include "base/parallel.h"
 #include "following/greatest_ball.h"
+#include "following/rest_contacts.h"
 #include "following/tracked_ball.h"
 #include "medial_vk/ball_union.h"
 
@@ -20,12 +21,9 @@ namespace {
 constexpr std::size_t kBallsAtATime = 16;  // that one thread takes
 constexpr std::size_t kBallsOfWalk = 8;
 
-/// A ball of the caller touches the surface at the point nearest to its centre.
+/// Of a ball with one contact, that one is both.
 TrackedBall tracked_at_rest(const MovingSurface& surface, const Ball& ball) {
-  const BvhHit nearest = surface.closest(ball.centre, std::numeric_limits<double>::infinity());
-  const double distance = std::sqrt(nearest.squared_distance);
-  const BallContact contact = {surface.surface_point(nearest), (1 / distance) * (ball.centre - nearest.point)};
-  TrackedBall tracked = greatest_ball(surface, contact, {});
+  TrackedBall tracked = ball_with_contacts(surface, ball);
   if (!tracked.b.on.is_known()) tracked.b = tracked.a;
   return tracked;
 }

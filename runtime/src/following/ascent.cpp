@@ -37,7 +37,7 @@ void ascend(const MovingSurface& surface, const Exposure& exposure, TrackedBall&
   if (!is_first) tracked.step = std::clamp(factor * tracked.step, kLeastStep, kGreatestStep);
   tracked.last_direction = direction;
   const Point guess = tracked.ball.centre + (tracked.step * tracked.ball.radius) * direction;
-  const TrackedBall moved = greatest_ball_at(surface, guess, tracked.b.on);
+  const TrackedBall moved = greatest_ball_at(surface, guess, tracked.a.on, tracked.b.on);
   if (!(moved.ball.radius > 0)) return;
   // Where the two contacts are neighbours on a circle of contacts, the greatest ball at the guess may be a smaller one.
   const double grown = moved.ball.radius - tracked.ball.radius;

@@ -12,10 +12,10 @@
 #include "base/parallel.h"
 #include "following/ascent.h"
 #include "following/ball_sides.h"
-#include "following/greatest_ball.h"
 #include "following/moving_surface.h"
 #include "following/published_rule.h"
 #include "following/renewal.h"
+#include "following/rest_contacts.h"
 #include "following/tangent_rule.h"
 #include "following/tracked_ball.h"
 #include "medial_vk/ball_union.h"
@@ -148,7 +148,7 @@ class Follower::Impl {
     is_renewed_.resize(balls.size());
     vertex_normals_.resize(surface_.vertices().size());
     if (options_.rule == FollowRule::kTangent) {
-      for_each_ball([&](std::size_t i) { tracked_[i] = greatest_ball(surface_, tracked_[i].a, {}); });
+      for_each_ball([&](std::size_t i) { tracked_[i] = ball_with_contacts(surface_, balls[i]); });
     }
     for (TrackedBall& tracked : tracked_) tracked.rest_radius = tracked.ball.radius;
     copy_balls(present_);
@@ -249,7 +249,7 @@ class Follower::Impl {
 
   void follow(TrackedBall& tracked) {
     if (length(tracked.last_direction) > 0) {
-      tracked.last_direction = surface_.carried(tracked.last_direction, tracked.a.on.triangle);
+      tracked.last_direction = surface_.carried(tracked.last_direction, tracked.a.on);
     }
     replace(tracked, follow_tangent(surface_, tracked));
   }

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "bvh/nearby_triangles.h"
 #include "bvh/refined_tree.h"
 #include "mesh/winding/winding_number.h"
 #include "solid/number_by_rays.h"
@@ -37,10 +38,20 @@ double signed_volume(std::span<const Point> vertices, std::span<const Triangle> 
   return sum.value() / 6;
 }
 
+/// The ends of the edge that holds the point, or its vertex twice.
+std::array<std::uint32_t, 2> side_of(const SurfacePoint& point, const Triangle& triangle) {
+  const std::array shares = point.shares();
+  std::array<std::size_t, 3> order = {0, 1, 2};
+  std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return shares[a] > shares[b]; });
+  const bool is_vertex = shares[order[1]] <= SurfacePoint::kOnSide;
+  return {triangle[order[0]], triangle[order[is_vertex ? 0 : 1]]};
+}
+
 }  // namespace
 
 MovingSurface::MovingSurface(const IndexedMesh& rest, Bvh bvh, Sides sides)
     : rest_(rest),
+      around_(rest.prepared().mesh),
       sides_(sides),
       vertices_(rest.view().vertices.begin(), rest.view().vertices.end()),
       last_vertices_(vertices_),
@@ -83,6 +94,22 @@ Status MovingSurface::return_to_rest(unsigned threads) {
   return {};
 }
 
+Point MovingSurface::carried_by_all(const Point& direction, const SurfacePoint& at, std::span<const Point> from,
+                                    double from_front) const {
+  const auto image_by = [&](std::uint32_t triangle) {
+    return carried_direction(direction, corners_of(from, triangle), from_front, corners(triangle), front_);
+  };
+  if (at.is_within_face()) return image_by(at.triangle);
+  const auto [first, second] = side_of(at, triangles()[at.triangle]);
+  Point sum = {0, 0, 0};
+  for (const std::uint32_t t : around_.of(first)) {
+    const Triangle& triangle = triangles()[t];
+    if (std::ranges::find(triangle, second) != triangle.end()) sum = sum + image_by(t);
+  }
+  const double size = length(sum);
+  return size > 0 ? (1 / size) * sum : image_by(at.triangle);
+}
+
 Status MovingSurface::measure(unsigned threads) {
   const BvhBox& box = bvh_.nodes().front().box;
   wide_.refit(bvh_);
@@ -98,6 +125,18 @@ Status MovingSurface::measure(unsigned threads) {
   if (!solid) return solid.error();
   open_solid_.emplace(std::move(solid).value());
   return {};
+}
+
+std::vector<BvhHit> MovingSurface::within(const Point& p, double radius) const {
+  std::vector<std::uint32_t> positions;
+  gather_within(bvh_, p, radius, positions);
+  std::vector<BvhHit> hits;
+  for (const std::uint32_t position : positions) {
+    BvhHit hit;
+    improve_hit(bvh_, p, position, hit);
+    if (hit.squared_distance <= radius * radius) hits.push_back(hit);
+  }
+  return hits;
 }
 
 bool MovingSurface::contains(const Point& p) const {

@@ -10,6 +10,7 @@
 #include "following/surface_point.h"
 #include "medial_vk/ball.h"
 #include "medial_vk/indexed_mesh.h"
+#include "mesh/mesh_topology.h"
 #include "solid/solid.h"
 
 namespace medial_vk {
@@ -43,14 +44,14 @@ class MovingSurface {
   SurfacePoint surface_point(const BvhHit& hit) const {
     return surface_point_at(hit.point, hit.triangle, corners(hit.triangle));
   }
-  /// The direction in the last frame at a triangle, in the present one.
-  Point carried(const Point& direction, std::uint32_t triangle) const {
-    return carried_direction(direction, corners_of(last_vertices_, triangle), last_front_, corners(triangle), front_);
+  /// The direction in the last frame at a point, in the present one. On an edge or at a vertex all triangles around
+  /// carry it, and the mean counts: which of them holds the point is a matter of rounding.
+  Point carried(const Point& direction, const SurfacePoint& at) const {
+    return carried_by_all(direction, at, last_vertices_, last_front_);
   }
-  /// The direction in the rest pose at a triangle, in the present frame.
-  Point carried_from_rest(const Point& direction, std::uint32_t triangle) const {
-    return carried_direction(direction, corners_of(rest_.view().vertices, triangle), rest_front_, corners(triangle),
-                             front_);
+  /// The same from the rest pose.
+  Point carried_from_rest(const Point& direction, const SurfacePoint& at) const {
+    return carried_by_all(direction, at, rest_.view().vertices, rest_front_);
   }
   Point inward_normal(std::uint32_t triangle) const { return inward_normal_of(corners(triangle), front_); }
   /// 1 if triangles are counter-clockwise seen from outside, -1 if the frame of a closed mesh is mirrored: its signed
@@ -59,6 +60,8 @@ class MovingSurface {
 
   /// The nearest point of the boundary, if it is closer than `bound`.
   BvhHit closest(const Point& p, double bound) const { return wide_.closest(bvh_, p, bound); }
+  /// The nearest points of all triangles that are not farther than `radius`. Throws std::bad_alloc.
+  std::vector<BvhHit> within(const Point& p, double radius) const;
   /// The error of a distance at a point within one longest side of the box.
   double rounding() const { return rounding_; }
   double longest_side() const { return longest_side_; }
@@ -83,9 +86,12 @@ class MovingSurface {
     const Triangle& t = rest_.view().triangles[triangle];
     return {vertices[t[0]], vertices[t[1]], vertices[t[2]]};
   }
+  Point carried_by_all(const Point& direction, const SurfacePoint& at, std::span<const Point> from,
+                       double from_front) const;
   Status measure(unsigned threads);
 
   IndexedMesh rest_;
+  VertexTriangles around_;
   Sides sides_;
   std::vector<Point> vertices_, last_vertices_;
   Bvh bvh_;

@@ -142,7 +142,7 @@ class Renewal {
       --most;
       const TrackedBall grown =
           place.triangle == kNowhere
-              ? greatest_ball_at(surface_, place.at, {})
+              ? greatest_ball_at(surface_, place.at, {}, {})
               : greatest_ball(surface_, {middle_of(place.triangle), surface_.inward_normal(place.triangle)}, {});
       if (grown.ball.radius > 0) candidates_.push_back(grown);
     }

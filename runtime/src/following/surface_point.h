@@ -18,8 +18,11 @@ struct SurfacePoint {
   double v = 0, w = 0;
 
   bool is_known() const { return triangle != BvhHit().triangle; }
+  /// The weights of the corners.
+  std::array<double, 3> shares() const { return {1 - v - w, v, w}; }
   /// False on edges and corners, up to rounding.
-  bool is_within_face() const { return v > 1e-9 && w > 1e-9 && v + w < 1 - 1e-9; }
+  static constexpr double kOnSide = 1e-9;
+  bool is_within_face() const { return v > kOnSide && w > kOnSide && v + w < 1 - kOnSide; }
 };
 
 inline Point point_at(const SurfacePoint& point, const Corners3& corners) {

@@ -19,7 +19,7 @@ constexpr double kNoLongerRest = 0.001;
 constexpr double kAtRest = 1 - 1e-6;
 
 BallContact carried(const MovingSurface& surface, const BallContact& contact) {
-  return {contact.on, surface.carried(contact.towards_centre, contact.on.triangle)};
+  return {contact.on, surface.carried(contact.towards_centre, contact.on)};
 }
 
 /// From the point that lies as far from both contacts along their directions, in the mean.
@@ -31,21 +31,28 @@ TrackedBall ball_between(const MovingSurface& surface, const BallContact& a, con
   const double along = dot(at_b - at_a, turn) / squared_turn;
   if (!(along > 0)) return {};
   const Point guess = 0.5 * ((at_a + along * a.towards_centre) + (at_b + along * b.towards_centre));
-  const Point to_a = at_a - guess, to_b = at_b - guess;
-  return greatest_ball_at(surface, guess, (dot(to_a, to_a) > dot(to_b, to_b) ? a : b).on);
+  return greatest_ball_at(surface, guess, a.on, b.on);
+}
+
+double squared_distance(const MovingSurface& surface, const Point& from, const SurfacePoint& to) {
+  const Point between = surface.at(to) - from;
+  return dot(between, between);
 }
 
 }  // namespace
 
-TrackedBall greatest_ball_at(const MovingSurface& surface, const Point& guess, const SurfacePoint& other) {
+TrackedBall greatest_ball_at(const MovingSurface& surface, const Point& guess, const SurfacePoint& a,
+                             const SurfacePoint& b) {
   const BvhHit nearest = surface.closest(guess, std::numeric_limits<double>::infinity());
   if (nearest.triangle == BvhHit().triangle) return {};  // the guess is no number
   const double distance = std::sqrt(nearest.squared_distance);
   if (!(distance > 2 * surface.rounding())) return {};
   const BallContact contact = {surface.surface_point(nearest), (1 / distance) * (guess - nearest.point)};
   if (!(dot(contact.towards_centre, surface.inward_normal(nearest.triangle)) > 0)) return {};
-  TrackedBall ball = greatest_ball(surface, contact, other);
-  // What `other` is worth as a bound does not matter: the ball around the guess is empty.
+  // The nearest point may be next to one of both, and then says nothing of the radius together with that one.
+  const bool is_next_to_b = a.is_known() && (!b.is_known() || squared_distance(surface, nearest.point, a) >
+                                                                   squared_distance(surface, nearest.point, b));
+  const TrackedBall ball = greatest_ball(surface, contact, is_next_to_b ? a : b);
   return ball.ball.radius > 0 ? ball : TrackedBall{};
 }
 
@@ -53,8 +60,8 @@ double share_of_rest(const MovingSurface& surface, const TrackedBall& rest) {
   if (!rest.has_two_contacts()) return 0;
   const double rest_radius =
       radius_through(surface.at_rest(rest.a.on), rest.a.towards_centre, surface.at_rest(rest.b.on));
-  const Point to_a = surface.carried_from_rest(rest.a.towards_centre, rest.a.on.triangle);
-  const Point to_b = surface.carried_from_rest(rest.b.towards_centre, rest.b.on.triangle);
+  const Point to_a = surface.carried_from_rest(rest.a.towards_centre, rest.a.on);
+  const Point to_b = surface.carried_from_rest(rest.b.towards_centre, rest.b.on);
   const double radius = radius_through(surface.at(rest.a.on), to_a, surface.at(rest.b.on));
   const double turn = dot(to_a, to_b) - dot(rest.a.towards_centre, rest.b.towards_centre);
   const double change = std::fabs(radius / rest_radius - 1) + std::fabs(turn);
@@ -64,7 +71,7 @@ double share_of_rest(const MovingSurface& surface, const TrackedBall& rest) {
 TrackedBall drawn_to_rest(const MovingSurface& surface, const TrackedBall& rest, double share,
                           const TrackedBall& followed) {
   if (share <= 0) return followed;
-  const BallContact contact = {rest.a.on, surface.carried_from_rest(rest.a.towards_centre, rest.a.on.triangle)};
+  const BallContact contact = {rest.a.on, surface.carried_from_rest(rest.a.towards_centre, rest.a.on)};
   const bool is_at_rest = share > kAtRest;
   // Where contacts are next to each other, the second one bounds the radius with a large rounding error.
   const TrackedBall image = is_at_rest ? greatest_ball_up_to(surface, contact, rest.b.on, rest.ball.radius)
@@ -73,7 +80,7 @@ TrackedBall drawn_to_rest(const MovingSurface& surface, const TrackedBall& rest,
   if (!is_whole) return followed;
   if (is_at_rest || !(followed.ball.radius > 0)) return image;
   const Point guess = followed.ball.centre + share * (image.ball.centre - followed.ball.centre);
-  const TrackedBall mixed = greatest_ball_at(surface, guess, followed.b.on);
+  const TrackedBall mixed = greatest_ball_at(surface, guess, followed.a.on, followed.b.on);
   return mixed.ball.radius > 0 ? mixed : followed;
 }
 
