@@ -51,7 +51,7 @@ TrackedBall greatest_ball_at(const MovingSurface& surface, const Point& guess, c
   if (!(dot(contact.towards_centre, surface.inward_normal(nearest.triangle)) > 0)) return {};
   // The nearest point may be next to one of both, and then says nothing of the radius together with that one.
   const bool is_next_to_b = a.is_known() && (!b.is_known() || squared_distance(surface, nearest.point, a) >
-                                                                   squared_distance(surface, nearest.point, b));
+                                                                  squared_distance(surface, nearest.point, b));
   const TrackedBall ball = greatest_ball(surface, contact, is_next_to_b ? a : b);
   return ball.ball.radius > 0 ? ball : TrackedBall{};
 }
