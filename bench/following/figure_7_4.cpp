@@ -22,6 +22,7 @@
 #include "medial_vk/follower.h"
 #include "medial_vk/prepare.h"
 #include "sequences.h"
+#include "share_outside.h"
 #include "support/solids/mesh_files.h"
 
 namespace {
@@ -58,6 +59,7 @@ Spheres spheres_of(const IndexedMesh& mesh, int resolution, int repeats, Context
 /// To a pose; errors in percent of the solid's volume.
 struct Update {
   double ms, least_error, greatest_error;
+  double outside;  ///< The share outside the solid, from samples.
 };
 std::vector<Update> updates(const IndexedMesh& mesh, const Sequence& sequence, const std::vector<Ball>& balls,
                             const FollowerOptions& options, int repeats) {
@@ -73,9 +75,12 @@ std::vector<Update> updates(const IndexedMesh& mesh, const Sequence& sequence, c
     }
     const FollowMeasures measures = or_exit(follower.measure());
     const double percent = 100 / measures.solid_volume, uncovered = measures.uncovered();
+    const bool may_reach_out = options.rule == FollowRule::kPublished;
+    const double protrusion = options.protrusion * mesh.longest_side();
+    const double outside = may_reach_out ? share_outside(mesh, pose, follower.balls(), protrusion).percent : 0;
     // Lemmas 7.1 and 7.3.
     result.push_back(
-        {median(times), percent * std::fabs(uncovered), percent * (uncovered + 2 * measures.outside_bound)});
+        {median(times), percent * std::fabs(uncovered), percent * (uncovered + 2 * measures.outside_bound), outside});
   }
   return result;
 }
@@ -106,9 +111,10 @@ void run(const Sequence& sequence, int resolution, int repeats, unsigned threads
   const std::vector<Update> before = updates(mesh, sequence, spheres.balls, published, repeats);
   const std::vector<Update> now = updates(mesh, sequence, spheres.balls, tangent, repeats);
   for (std::size_t i = 0; i < now.size(); ++i) {
-    fmt::print("| {} | {} | {} | {:.0f} | {} | {:.2f} | {:.2f} to {:.2f} | {:.2f} | {:.2f} |\n", sequence.name,
+    fmt::print("| {} | {} | {} | {:.0f} | {} | {:.2f} | {:.2f} to {:.2f} | {:.3f} | {:.2f} | {:.2f} |\n", sequence.name,
                mesh.view().triangles.size(), spheres.balls.size(), spheres.ms, i, 100 * before[i].ms / spheres.ms,
-               before[i].least_error, before[i].greatest_error, 100 * now[i].ms / spheres.ms, now[i].least_error);
+               before[i].least_error, before[i].greatest_error, before[i].outside, 100 * now[i].ms / spheres.ms,
+               now[i].least_error);
     std::fflush(stdout);
   }
 }

@@ -27,6 +27,7 @@
 #include "medial_vk/follower.h"
 #include "medial_vk/prepare.h"
 #include "medial_vk/sphere_fits.h"
+#include "share_outside.h"
 #include "support/solids/motions.h"
 
 namespace {
@@ -60,6 +61,13 @@ struct Uncovered {
 Uncovered uncovered(const Follower& follower) {
   const FollowMeasures measures = or_exit(follower.measure());
   return {100 * measures.uncovered() / measures.solid_volume, 100 * measures.outside_bound / measures.solid_volume};
+}
+
+/// Percent of the solid's volume, of the balls that follow as published.
+std::string outside_text(const IndexedMesh& mesh, const std::vector<Point>& frame, const Follower& follower) {
+  const double protrusion = FollowerOptions().protrusion * mesh.longest_side();
+  const ShareOutside outside = share_outside(mesh, frame, follower.balls(), protrusion);
+  return fmt::format("{:.3f} ± {:.3f}", outside.percent, outside.standard_error);
 }
 
 /// Milliseconds of each frame.
@@ -99,9 +107,10 @@ void follow(const std::string& title, const Rule& rule, const IndexedMesh& mesh,
   exit_unless(follower.reset());
   exit_unless(follower.update(frames.back()));
   const Uncovered at_once = uncovered(follower);
-  fmt::print("| {} | {} | {:.2f} | {:.2f} | {:.2f} | {} | {:.2f} | {:.2f} | {:.0f} | {:.2f} | {:.2f} |\n", title,
+  const std::string outside = options.rule == FollowRule::kPublished ? outside_text(mesh, frames.back(), follower) : "";
+  fmt::print("| {} | {} | {:.2f} | {:.2f} | {:.2f} | {} | {:.2f} | {:.2f} | {} | {:.0f} | {:.2f} | {:.2f} |\n", title,
              rule.name, rest.share, end.share, at_once.share, fresh, back.share / rest.share, end.outside_bound,
-             100.0 * static_cast<double>(medial) / static_cast<double>(balls.size()), median(times.clock),
+             outside, 100.0 * static_cast<double>(medial) / static_cast<double>(balls.size()), median(times.clock),
              median(times.processor));
   std::fflush(stdout);
 }
