@@ -107,6 +107,7 @@ void run(const Sequence& sequence, int resolution, int repeats, unsigned threads
   const Spheres spheres = spheres_of(mesh, resolution, repeats, context);
   FollowerOptions published, tangent;
   published.rule = FollowRule::kPublished;
+  tangent.steps = 0;  // one frame from the rest pose, as the source has it
   published.threads = tangent.threads = threads;
   const std::vector<Update> before = updates(mesh, sequence, spheres.balls, published, repeats);
   const std::vector<Update> now = updates(mesh, sequence, spheres.balls, tangent, repeats);

@@ -323,6 +323,7 @@ Result<FollowerJob> FollowerJob::create(Context& context, const IndexedMesh& res
     if (Status status = check_mesh(rest, surface.value()); !status) return status.error();
     // The host's follower tests that all balls are inside.
     FollowerOptions on_host;
+    on_host.steps = 0;
     on_host.shrunk = options.shrunk;
     on_host.object_angle = options.object_angle;
     on_host.threads = options.threads;

@@ -92,4 +92,12 @@ class WorkerPool {
   std::vector<std::thread> workers_;
 };
 
+/// After a loop whose workers each have an object with memory of its own: grow(object, of) gives each one what another
+/// has, so that the next loop allocates nothing for the same work, whichever worker does it.
+template <class Objects, class Grow>
+void share_room(Objects& by_worker, const Grow& grow) {
+  for (std::size_t i = 1; i < by_worker.size(); ++i) grow(*by_worker[0], *by_worker[i]);
+  for (std::size_t i = 1; i < by_worker.size(); ++i) grow(*by_worker[i], *by_worker[0]);
+}
+
 }  // namespace medial_vk

@@ -206,7 +206,7 @@ Result<FollowOptions> FollowOptionParser::parse(const std::vector<std::string>& 
   if (Status status = check_contract(declared_->app, options); !status) return status.error();
   if (Status status = check_follow_inputs(options, given); !status) return status.error();
   if (Status status = check_rule(options, given, has_steps); !status) return status.error();
-  if (!has_steps && options.follower.rule == FollowRule::kTangent) options.follower.steps = kUsualFollowSteps;
+  if (options.follower.rule == FollowRule::kPublished) options.follower.steps = 0;
   options.count = given.count > 0 ? given.count : options.covers() ? kUsualCoverCount : kUsualFollowers;
   if (given.grown > 0) options.grown = given.grown;
   if (given.protrusion > 0) options.follower.protrusion = given.protrusion;

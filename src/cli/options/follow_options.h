@@ -18,9 +18,6 @@
 
 namespace medial_vk::cli {
 
-/// Steps of each frame, towards more volume of balls inside or less of a cover, unless the command line has another
-/// number.
-constexpr std::uint32_t kUsualFollowSteps = 1;
 /// Balls to fit, unless the command line has another number. A cover of many takes minutes.
 constexpr std::size_t kUsualFollowers = 500, kUsualCoverCount = 100;
 

@@ -209,6 +209,7 @@ class MotionFitRun {
   template <class Seen>
   Status follow(const char* stage, const std::vector<Ball>& balls, const Seen& seen) {
     FollowerOptions follower_options;
+    follower_options.steps = 0;
     follower_options.threads = threads();
     Result<Follower> follower = Follower::create(*mesh_, balls, follower_options);
     if (!follower) return follower.error();

@@ -43,6 +43,7 @@ TEST(FollowOptions, AllAtOnce) {
   expected.count = 64;
   expected.resolution = 50;
   expected.from_rest = expected.check = expected.verbose = true;
+  expected.follower.steps = 0;
   expected.follower.shrunk = 0.25;
   expected.follower.object_angle = 0.75;
   expected.follower.threads = 3;

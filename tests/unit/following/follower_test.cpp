@@ -213,7 +213,7 @@ TEST(Follower, MeasuresAreThoseOfTheFrame) {
   EXPECT_EQ(measures.outside_bound, 0);
   EXPECT_GT(measures.uncovered(), 0);
   // Steps towards a greater volume find one.
-  Follower without = example.follower();
+  Follower without = example.follower({.steps = 0});
   ASSERT_TRUE(without.update(frame).ok());
   EXPECT_GT(measures.ball_volume, without.measure().value().ball_volume);
 }

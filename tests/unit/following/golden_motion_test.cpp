@@ -33,7 +33,7 @@ std::string followed_table() {
   Example solid(std::move(torus), 0);
   solid.balls = {
       {{2, 0, 0}, 0.25}, {{0.25, 1.9375, 0.125}, 0.25}, {{-1.5, 1.25, 0}, 0.5}, {{-1.25, -1.5, -0.125}, 0.25}};
-  Follower follower = solid.follower();
+  Follower follower = solid.follower({.steps = 0});
   std::string table = "frame,ball,x,y,z,radius\n";
   for (int frame = 0; frame <= kGoldenFrames; ++frame) {
     if (frame > 0) {

@@ -92,6 +92,13 @@ void PowerCell::cut_to_box() {
   farthest_ = 2 * balls_[ball_].radius;
 }
 
+void PowerCell::make_room_of(const PowerCell& other) {
+  const auto reserve = [&](auto... members) { ((this->*members).reserve((other.*members).capacity()), ...); };
+  reserve(&PowerCell::walls_, &PowerCell::planes_, &PowerCell::corners_, &PowerCell::heights_, &PowerCell::is_cut_,
+          &PowerCell::cut_, &PowerCell::added_, &PowerCell::leaving_, &PowerCell::arriving_, &PowerCell::plane_of_);
+  exact_.make_room_of(other.exact_);
+}
+
 void PowerCell::keep(Kept& kept) const {
   kept.ball = ball_;
   kept.walls = walls_;

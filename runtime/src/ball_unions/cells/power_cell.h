@@ -32,6 +32,8 @@ class PowerCell {
     balls_ = balls;
     exact_.use(balls);
   }
+  /// Allocates the memory that the cells of another one needed.
+  void make_room_of(const PowerCell& other);
 
   /// The state from which restore() continues with a cell.
   struct Kept {

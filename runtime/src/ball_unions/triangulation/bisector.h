@@ -60,6 +60,8 @@ class ExactSide {
   ExactSide(std::span<const Ball> balls, const std::vector<Wall>& walls) : balls_(balls), walls_(walls) {}
   /// For other balls, with the memory of earlier tests.
   void use(std::span<const Ball> balls) { balls_ = balls; }
+  /// Allocates the memory that the tests of another one needed.
+  void make_room_of(const ExactSide& other) { arena_.make_room_of(other.arena_); }
 
   /// True if plane m keeps the point where planes p, q, s of the cell of ball i meet. Their normals are independent.
   /// Each is the number k of a ball, or -1 - k for wall k.

@@ -111,6 +111,7 @@ void RegularTriangulation::place_corners(WorkerPool& pool) {
   for (const auto& exact : exact_) exact->side.use(balls_);
   pool.run(tetrahedra_.size(), kCornersOfThread,
            [&](std::size_t t, unsigned worker) { corners_[t] = place_corner(tetrahedra_[t], exact_[worker]->side); });
+  share_room(exact_, [](ExactCorners& one, const ExactCorners& of) { one.side.make_room_of(of.side); });
 }
 
 RegularTriangulation::Corner RegularTriangulation::place_corner(const Tetrahedron& t, ExactSide& exact) const {

@@ -76,6 +76,7 @@ void UnionMeasurer::measure_by_triangulation(WorkerPool& pool) {
       return cell;
     });
   });
+  share_room(cells_, [](PowerCell& cell, const PowerCell& of) { cell.make_room_of(of); });
 }
 
 /// Each cell is cut by itself, from the balls around it.
