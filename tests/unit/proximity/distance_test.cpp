@@ -222,11 +222,18 @@ TEST(Distance, OfTouchingSolidsIsZeroOrLittleMore) {
 // Where surfaces coincide and no edge crosses a face, balls inside still decide.
 TEST(Distance, BallsDecideWhereSurfacesCoincide) {
   const Mesh mesh = make_box({1, 1, 1});
-  const std::vector<Ball> inside = {{{0.5, 0.5, 0.5}, 0.4}};
+  const std::vector<Ball> inside = {{{0.5, 0.5, 0.95}, 0.04}, {{0.5, 0.5, 0.5}, 0.4}};
   const Body a = Body::create(indexed(prepare_mesh(mesh).value()), inside).value();
   const Distance found = distance(a, a, Pose{}).value();
   EXPECT_EQ(found.collision(), Collision::kHit);
-  EXPECT_NEAR(length(found.on_a - Point{0.5, 0.5, 0.5}), 0, 0.4);
+  ASSERT_LT(found.inside_pair.a, inside.size());
+  ASSERT_LT(found.inside_pair.b, inside.size());
+  for (const std::uint32_t i : {found.inside_pair.a, found.inside_pair.b}) {
+    EXPECT_LE(length(found.on_a - inside[i].centre), inside[i].radius * (1 + 0x1p-50));
+  }
+  // Triangles decide where surfaces cross, and where solids are apart, whatever the start names.
+  EXPECT_EQ(distance(a, a, make_pose({0.3, 0.2, 0.1}, {0.1, 0, 0}), {}, found).value().inside_pair, BallPair());
+  EXPECT_EQ(distance(a, a, make_pose({2, 0.2, 0.1}, {0.1, 0, 0}), {}, found).value().inside_pair, BallPair());
 }
 
 TEST(Distance, OfFarSolidsHoldsTheirs) {
