@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "failing_new.h"
+#include "faults/failing_new.h"
 #include "medial_vk/body_group.h"
 #include "medial_vk/collisions.h"
 #include "medial_vk/proximity.h"
