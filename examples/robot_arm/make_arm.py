@@ -220,8 +220,13 @@ def joints():
 
 
 def main():
+    if sys.argv[1:] in (["-h"], ["--help"]):
+        print(__doc__)
+        return
     if len(sys.argv) != 2:
         sys.exit(__doc__)
+    if sys.argv[1].startswith("-"):  # a mistyped option, not a folder
+        sys.exit(f"make_arm.py: {sys.argv[1]} is no option; the folder of that name is ./{sys.argv[1]}")
     folder = pathlib.Path(sys.argv[1]) / "robot_arm"
     (folder / "meshes").mkdir(parents=True, exist_ok=True)
     for name, mesh in [("base", base()), ("upper_arm", upper_arm()), ("elbow", elbow()), ("forearm", forearm()),

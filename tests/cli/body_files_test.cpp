@@ -49,6 +49,16 @@ TEST_F(BodyFiles, AnswerByBallsAlone) {
   EXPECT_THAT(result.err, HasSubstr("1 inside and 1 that cover it, proved again"));
 }
 
+TEST_F(BodyFiles, OfOnePoseNameTheBallsThatDecide) {
+  body_.inside.insert(body_.inside.begin(), {{0.1, 0.5, 0.5}, 0.05});
+  write("two.npz", body_);
+  test::write_file(path("pose.csv"), "x,y,z\n3,0,0\n");
+  const test::ToolResult result = distance({"box.npz", "two.npz", "--balls", "--poses", "pose.csv"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, testing::ContainsRegex(
+                              "by +lower end by cover 0 of A and 0 of B, upper end by inside 0 of A and 1 of B\n"));
+}
+
 TEST_F(BodyFiles, AnswerByTrianglesBesideAMesh) {
   const test::ToolResult of_mesh = distance({"box.obj", "box.obj", "--poses", "poses.csv"});
   const test::ToolResult result = distance({"box.npz", "box.obj", "--poses", "poses.csv", "--check"});

@@ -161,7 +161,8 @@ TEST_F(ClearanceCommand, MimicsFollowAndLimitsAreNoted) {
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_NEAR(lines[0].upper, 1.5, kRounding);
   EXPECT_NEAR(lines[1].upper, 3, kRounding);
-  EXPECT_THAT(result.err, testing::ContainsRegex("limits +beyond them in 1 configuration\n"));
+  EXPECT_THAT(result.err, testing::ContainsRegex("limits +beyond them in 1 configuration, first in "
+                                                 "configuration 2: slide is at 0.5, above 0.25\n"));
 }
 
 /// Facets around the sphere prove the lower end, those inside it the upper one.

@@ -21,6 +21,9 @@ void require_usable(const cli::ClearanceOptions& options) {
   require(!(options.quiet && options.verbose), "-q and -v exclude each other");
   const GroupOptions of_library = cli::group_options(options);
   require(of_library.exact == (options.balls == 0), "triangles decide, unless balls are to");
+  require(cli::triangle_options(options).exact, "triangles decide with --decide");
+  require(options.balls > 0 || (options.bodies.empty() && !options.decide), "bodies and decisions are those of balls");
+  require(options.bodies != "-", "a stream is no folder");
   require(of_library.tolerance == options.tolerance, "the library has the same tolerance");
   require(options.limit > 0 ? of_library.limit == options.limit : std::isinf(of_library.limit),
           "there is no limit, or that one");

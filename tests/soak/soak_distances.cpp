@@ -1,14 +1,17 @@
 // Distances without end: soak_distances FIRST COUNT [SECONDS] [MODEL ...]. Compares all that the library says about
 // pairs of solids with the reference, for the seeds from FIRST on, and prints a table by kinds of poses, with a line
-// for every fault. Without a MODEL: of generated solids; else of these meshes, and few of the others. Balls are fitted
-// by the library, where it fits any. The exit code is 1 if there is a fault.
+// for every fault. Without a MODEL: of generated solids; else of these meshes, and few of the others; of a folder, all
+// its meshes. Balls are fitted by the library, where it fits any. The exit code is 1 if there is a fault.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "input/read_mesh.h"
@@ -42,24 +45,52 @@ BallSets fitted_balls(const IndexedMesh& mesh, Context& context) {
   return sets;
 }
 
+/// The files, and in the place of each folder the meshes in it, in the order of their names.
+std::vector<std::string> files_of(const std::vector<std::string>& models) {
+  std::vector<std::string> files;
+  for (const std::string& model : models) {
+    if (!std::filesystem::is_directory(model)) {
+      files.push_back(model);
+      continue;
+    }
+    std::vector<std::string> found;
+    for (const auto& entry : std::filesystem::directory_iterator(model)) {
+      const std::string ending = entry.path().extension().string();
+      const bool is_mesh = ending == ".obj" || ending == ".ply" || ending == ".stl" || ending == ".off";
+      if (is_mesh && entry.is_regular_file()) found.push_back(entry.path().string());
+    }
+    std::ranges::sort(found);
+    files.insert(files.end(), found.begin(), found.end());
+  }
+  return files;
+}
+
 std::vector<DistanceSolid> solids_of(const std::vector<std::string>& models) {
   std::vector<DistanceSolid> generated =
       generated_distance_solids([&](const IndexedMesh& mesh) { return grid_balls(mesh, kCells); });
   if (models.empty()) return generated;
   Context context = make_context();
   std::vector<DistanceSolid> solids;
-  for (const std::string& file : models) {
+  for (const std::string& file : files_of(models)) {
     Result<Mesh> mesh = read_mesh(file);
     if (!mesh.ok()) {
       fmt::print(stderr, "{}\n", mesh.error().message);
       std::exit(2);
     }
     const std::string name = file.substr(file.rfind('/') + 1);
-    const auto balls = [&](const IndexedMesh& indexed) { return fitted_balls(indexed, context); };
-    solids.push_back(make_distance_solid(name, mesh.value(), false, balls));
+    bool is_closed = true;
+    const auto balls = [&](const IndexedMesh& indexed) {
+      is_closed = indexed.prepared().report.closed;
+      return fitted_balls(indexed, context);
+    };
     Mesh small = mesh.value();
     scale(small, 0.05);
-    solids.push_back(make_distance_solid("small " + name, small, false, balls));
+    const std::pair<std::string, const Mesh*> sizes[] = {{name, &mesh.value()}, {"small " + name, &small}};
+    for (const auto& [full_name, of_size] : sizes) {
+      solids.push_back(make_distance_solid(full_name, *of_size, false, balls));
+      solids.back().is_degenerate = !is_closed;
+      fmt::print(stderr, "{}: {} triangles, {}\n", full_name, of_size->triangles.size(), is_closed ? "closed" : "open");
+    }
   }
   for (DistanceSolid& solid : generated) {
     if (solid.is_degenerate) solids.push_back(std::move(solid));

@@ -144,6 +144,10 @@ struct Distance {
   Point on_a = {0, 0, 0}, on_b = {0, 0, 0};
   /// The triangles of the two meshes that hold the points on the surfaces.
   std::uint32_t triangle_a = kNone, triangle_b = kNone;
+  /// Two balls inside with a common point, by their indices in Body::inside(), where they prove the hit, as where
+  /// a tolerance ends the search before triangles do; elsewhere no pair, since triangles give both ends. The balls that
+  /// bound a distance without triangles are those of DistanceBounds.
+  BallPair inside_pair = {};
 
   /// Undecided: no common point is proved, and the surfaces may touch, to within rounding or the tolerance.
   Collision collision() const {

@@ -89,6 +89,7 @@ void decide_by_balls(const BodyImpl& a, const BodyImpl& b, const Placement& plac
   // From the centre of the ball of a towards the other one, no farther than either surface.
   const double step = std::clamp(between - ball_b.radius, 0.0, ball_a.radius);
   distance.lower = distance.upper = 0;
+  distance.inside_pair = pair;
   distance.on_a = distance.on_b = between > 0 ? ball_a.centre + (step / between) * away : centre;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "cli/shared/states_text.h"
 #include "cli/terminal/numbers.h"
@@ -28,7 +29,14 @@ std::string clearance_opening(const ClearanceOptions& options, const RobotAndSce
   std::string text = fmt::format("{}: {}, {}, {}\n", options.robot, counted(all.robot.links.size(), "link", "links"),
                                  counted(joints, "free joint", "free joints"),
                                  counted(all.solids.around.size() - options.scenes.size(), "solid", "solids"));
-  if (!options.scenes.empty()) text += labelled("scene", counted(options.scenes.size(), "mesh", "meshes"));
+  if (!options.scenes.empty()) {
+    std::string scene = counted(options.scenes.size(), "mesh", "meshes");
+    if (!all.balls_of_files.empty()) {
+      scene += fmt::format("; {}, proved again",
+                           counted(all.balls_of_files.size(), "is from a body file", "are from body files"));
+    }
+    text += labelled("scene", scene);
+  }
   std::string pairs = fmt::format("{} compared", grouped(all.pairs.size()));
   if (options.srdf.empty()) {
     pairs += fmt::format("; {} joined and {} that always touch are not", grouped(all.joined.size()),
@@ -56,12 +64,51 @@ std::string clearance_opening(const ClearanceOptions& options, const RobotAndSce
   return text;
 }
 
+std::string balls_opening(const ClearanceOptions& options, const BallsOfSolids& balls) {
+  std::size_t inside = 0, cover = 0;
+  for (const std::optional<SolidBalls>& of_solid : balls.balls) {
+    inside += of_solid->inside.size();
+    cover += of_solid->cover.size();
+  }
+  std::string text =
+      labelled("balls", fmt::format("{} inside and {} that cover, proved", grouped(inside), grouped(cover)));
+  if (options.bodies.empty()) return text;
+  const std::string read = counted(balls.read, "body read", "bodies read");
+  const std::string fitted = balls.fitted == 0 ? "none fitted" : grouped(balls.fitted) + " fitted and kept there";
+  return text + labelled("bodies", fmt::format("{} from {}, {}", read, options.bodies, fitted));
+}
+
+BeyondLimits find_beyond_limits(std::span<const FreeJoint> joints, std::span<const std::vector<double>> values) {
+  BeyondLimits beyond;
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      const FreeJoint& joint = joints[i];
+      const double position = values[row][i];
+      if (!(position < joint.lower || position > joint.upper)) continue;
+      if (++beyond.configurations > 1) break;
+      beyond.first = row + 1;
+      beyond.joint = joint.name;
+      beyond.position = position;
+      beyond.limit = position < joint.lower ? joint.lower : joint.upper;
+      break;
+    }
+  }
+  return beyond;
+}
+
 std::string clearance_summary(const ClearanceOptions& options, std::span<const Clearance> clearances,
-                              std::size_t beyond, const std::vector<StageTime>& times,
+                              std::size_t by_triangles, const BeyondLimits& beyond, const std::vector<StageTime>& times,
                               std::span<const OutputFile> files) {
   std::string text = labelled("states", states_text(clearances)) + labelled("least", least_text(clearances));
-  if (beyond > 0) {
-    text += labelled("limits", fmt::format("beyond them in {}", counted(beyond, "configuration", "configurations")));
+  if (options.decide) {
+    text += labelled("decided", fmt::format("{} by triangles, which balls left undecided",
+                                            counted(by_triangles, "configuration", "configurations")));
+  }
+  if (beyond.configurations > 0) {
+    text += labelled("limits", fmt::format("beyond them in {}, first in configuration {}: {} is at {:.9g}, {} {:.9g}",
+                                           counted(beyond.configurations, "configuration", "configurations"),
+                                           beyond.first, beyond.joint, beyond.position,
+                                           beyond.position < beyond.limit ? "below" : "above", beyond.limit));
   }
   const auto time = std::ranges::find(times, "distances", &StageTime::stage);
   const double each = time->seconds / static_cast<double>(clearances.size());

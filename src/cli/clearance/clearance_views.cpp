@@ -36,10 +36,10 @@ void append_solids(const RobotAndScene& all, std::span<const Pose> poses, const 
   append([&](std::uint32_t link) { return link != nearest.a && link != nearest.b; });
 }
 
-Status add_points(const ClearanceOptions& options, const PlacedBody& a, const PlacedBody& b, PairPicture& picture) {
+Status add_points(bool by_balls, const PlacedBody& a, const PlacedBody& b, PairPicture& picture) {
   const Pose b_in_a = relative(a.pose, b.pose);
-  add_balls(a, b, b_in_a, options.balls > 0, picture);
-  if (options.balls > 0) return {};
+  add_balls(a, b, b_in_a, by_balls, picture);
+  if (by_balls) return {};
   const Result<Distance> nearest = distance(a.body, b.body, b_in_a);
   if (!nearest) return nearest.error();
   picture.on_a = a.pose * nearest.value().on_a;
@@ -53,7 +53,10 @@ Result<PairPicture> picture_of(const ClearanceOptions& options, const ClearanceV
                                const PoseInterval& interval) {
   std::vector<Pose> poses(view.all.links());
   if (Status status = view.place(shown, poses); !status) return status.error();
-  const Result<LeastDistance> least = least_distance(view.group, poses, group_options(options));
+  const bool by_balls = !view.by_triangles[shown];
+  const BodyGroup& group = by_balls ? *view.of_balls : *view.of_triangles;
+  const Result<LeastDistance> least =
+      least_distance(group, poses, by_balls ? group_options(options) : triangle_options(options));
   if (!least) return least.error();
   PartPair pair = least.value().upper_pair;
   if (pair.a == PartPair::kNone) pair = least.value().lower_pair;
@@ -66,7 +69,7 @@ Result<PairPicture> picture_of(const ClearanceOptions& options, const ClearanceV
     picture.name_a = picture.name_b = "";
     return picture;
   }
-  const std::span<const GroupPart> parts = view.group.parts();
+  const std::span<const GroupPart> parts = group.parts();
   if (parts[pair.a].link > parts[pair.b].link) std::swap(pair.a, pair.b);
   const GroupPart &a = parts[pair.a], &b = parts[pair.b];
   append_solids(view.all, poses, {a.link, b.link}, picture);
@@ -74,7 +77,7 @@ Result<PairPicture> picture_of(const ClearanceOptions& options, const ClearanceV
   picture.name_b = view.all.names[b.link];
   picture.has_points = std::isfinite(interval.upper);
   const Pose at_a = poses[a.link] * a.pose, at_b = poses[b.link] * b.pose;
-  if (Status status = add_points(options, {a.body, at_a}, {b.body, at_b}, picture); !status) return status.error();
+  if (Status status = add_points(by_balls, {a.body, at_a}, {b.body, at_b}, picture); !status) return status.error();
   return picture;
 }
 
@@ -96,7 +99,7 @@ Status append_clearance_views(const ClearanceOptions& options, const ClearanceVi
   page.pose = "configuration";
   page.unit = "metres";
   page.picture = "The robot and the scene as glass, with the two closest links in colours";
-  page.by_balls = options.balls > 0;
+  page.by_balls = options.balls > 0 && !options.decide;
   return append_views(picture.value(), options.view, options.picture, options.html, std::move(page), files);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,8 +19,11 @@ namespace medial_vk::cli {
 /// A run, as its views see it.
 struct ClearanceView {
   const RobotAndScene& all;
-  const BodyGroup& group;  ///< That of the upper ends; its parts are in the order of the solids.
+  /// Those of the upper ends, where balls or triangles have answered; parts are in the order of the solids.
+  const std::optional<BodyGroup>& of_balls;
+  const std::optional<BodyGroup>& of_triangles;
   std::span<const Clearance> clearances;
+  const std::vector<bool>& by_triangles;  ///< The origin of each clearance.
   /// Places all links in a configuration, by its index.
   std::function<Status(std::size_t, std::span<Pose>)> place;
 };

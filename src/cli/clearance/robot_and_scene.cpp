@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "base/stopwatch.h"
+#include "body_files/body_file.h"
 #include "cli/shared/load.h"
+#include "cli/shared/load_body.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/messages.h"
 #include "input/text_scanner.h"
@@ -37,8 +39,35 @@ Status load_robot(const ClearanceOptions& options, RobotAndScene& all) {
   return {};
 }
 
+/// `name` is that of a file of the scene.
+void add_scene(const IndexedMesh& mesh, const std::string& name, RobotAndScene& all) {
+  const LinkSolid solid = {mesh, static_cast<std::uint32_t>(all.links()), {}, name};
+  all.solids.around.push_back(solid);
+  all.solids.inside.push_back(solid);
+  all.names.push_back(name);
+}
+
+Status load_scene_body(const std::string& path, const ClearanceOptions& options, RobotAndScene& all,
+                       std::vector<StageTime>& times) {
+  const Result<BodyFile> file = [&] {
+    const EndAtOnce guard;  // a pipe may wait
+    return read_body_file(path);
+  }();
+  if (!file) return file.error();
+  Result<LoadedBody> body = load_body(file.value(), path, options.threads, times);
+  if (!body) return body.error();
+  if (options.balls > 0 && body.value().cover.empty()) {
+    return file_error(path, "the file has no balls that cover the mesh, and --balls needs them");
+  }
+  all.balls_of_files[static_cast<std::uint32_t>(all.links())] = {std::move(body.value().inside),
+                                                                 std::move(body.value().cover)};
+  add_scene(body.value().mesh, path, all);
+  return {};
+}
+
 Status load_scene(const std::string& path, const ClearanceOptions& options, RobotAndScene& all,
                   std::vector<StageTime>& times) {
+  if (is_body_file(path)) return load_scene_body(path, options, all, times);
   Result<std::vector<ScenePart>> read = read_meshes(path, false, times);
   if (!read) return read.error();
   const DeviceOpening no_device;
@@ -47,11 +76,7 @@ Status load_scene(const std::string& path, const ClearanceOptions& options, Robo
   if (!prepared) return prepared.error();
   const Result<IndexedMesh> mesh = IndexedMesh::build(std::move(prepared).value(), {.threads = options.threads});
   if (!mesh) return mesh.error();
-  const std::string name = path == "-" ? "stdin" : path;
-  const LinkSolid solid = {mesh.value(), static_cast<std::uint32_t>(all.links()), {}, name};
-  all.solids.around.push_back(solid);
-  all.solids.inside.push_back(solid);
-  all.names.push_back(name);
+  add_scene(mesh.value(), path == "-" ? "stdin" : path, all);
   return {};
 }
 

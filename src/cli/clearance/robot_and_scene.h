@@ -1,11 +1,14 @@
 // What `medial-vk clearance` compares: the solids of links and scene, and the pairs of links.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "cli/options/clearance_options.h"
+#include "medial_vk/ball.h"
 #include "medial_vk/body_group.h"
 #include "medial_vk/measurements.h"
 #include "medial_vk/result.h"
@@ -15,11 +18,18 @@
 
 namespace medial_vk::cli {
 
+/// Balls of a solid, in its own frame.
+struct SolidBalls {
+  std::vector<Ball> inside, cover;
+};
+
 /// A robot in its surroundings. The files of the scene are further links, after those of the robot.
 struct RobotAndScene {
   Robot robot;
   LinkSolids solids;
-  std::vector<std::string> names;          ///< Of links, then of files.
+  std::vector<std::string> names;  ///< Of links, then of files.
+  /// Of the body files of the scene, proved again, by the links that stand for them.
+  std::map<std::uint32_t, SolidBalls> balls_of_files;
   std::vector<LinkPair> joined, touching;  ///< Links that are not compared, unless there is an SRDF,
   std::vector<LinkPair> from_srdf;         ///< and those that it names.
   std::vector<LinkPair> pairs;             ///< Those that are compared.

@@ -11,6 +11,7 @@
 #include "cli/clearance/clearance_summary.h"
 #include "cli/clearance/clearance_views.h"
 #include "cli/clearance/fitted_links.h"
+#include "cli/clearance/kept_bodies.h"
 #include "cli/clearance/robot_and_scene.h"
 #include "cli/help/help_texts.h"
 #include "cli/options/clearance_options.h"
@@ -39,9 +40,10 @@ class ClearanceRun {
       if (output.file->empty()) continue;
       if (Status status = check_writable(*output.file); !status) return status;
     }
-    if (options_.balls > 0 && options_.backend != Backend::kCpu) {
-      opening_.start(options_.device, options_.threads, progress_);  // while the robot is read
+    if (!options_.bodies.empty()) {
+      if (Status status = check_folder(options_.bodies); !status) return status;
     }
+    if (options_.balls > 0 && options_.bodies.empty()) start_device();  // while the robot is read
     if (Status status = load(); !status) return status;
     if (Status status = build(); !status) return status;
     if (!options_.quiet) print_message(clearance_opening(options_, all_, kinematics_->joints().size()));
@@ -51,13 +53,17 @@ class ClearanceRun {
     if (Status status = draw(); !status) return status;
     files_.push_back({options_.output, encode_clearances_csv(clearances_)});
     if (!options_.write_srdf.empty()) files_.push_back({options_.write_srdf, encode_left_out(all_)});
-    if (interrupted()) return stopped();
+    if (interrupted()) return ended();
     if (Status status = write_files(files_); !status) return status;
-    if (!options_.quiet) print_message(clearance_summary(options_, clearances_, beyond_, times_, files_));
+    if (!options_.quiet) print_message(summary());
     return report_check();
   }
 
  private:
+  void start_device() {
+    if (options_.backend != Backend::kCpu) opening_.start(options_.device, options_.threads, progress_);
+  }
+
   Status load() {
     progress_.update("read", 0);
     Result<RobotAndScene> all = load_robot_and_scene(options_, times_);
@@ -77,13 +83,7 @@ class ClearanceRun {
     if (!values) return values.error();
     values_ = std::move(values).value();
     if (Status status = check_row_exists(options_.row, values_.size(), "configuration"); !status) return status;
-    beyond_ = static_cast<std::size_t>(std::ranges::count_if(values_, [this](const auto& of_joints) {
-      for (std::size_t i = 0; i < of_joints.size(); ++i) {
-        const FreeJoint& joint = kinematics_->joints()[i];
-        if (of_joints[i] < joint.lower || of_joints[i] > joint.upper) return true;
-      }
-      return false;
-    }));
+    beyond_ = find_beyond_limits(kinematics_->joints(), values_);
     return {};
   }
 
@@ -102,8 +102,8 @@ class ClearanceRun {
       };
     };
     const auto error = [](const Error& e) { return e.code == ErrorCode::kInterrupted ? stopped() : e; };
-    // With --balls, triangles only find the pairs that always touch.
-    const bool has_bodies = options_.balls == 0 || options_.srdf.empty();
+    // With --balls, triangles only find the pairs that always touch, and what balls leave undecided.
+    const bool has_bodies = answers_by_triangles() || options_.srdf.empty();
     const std::span<const LinkSolid> solids = has_bodies ? all_.solids.around : std::span<const LinkSolid>();
     const Result<std::vector<GroupPart>> around =
         bodies_of(solids, options_.threads, {}, seen("bodies"), stop.get_token());
@@ -112,9 +112,9 @@ class ClearanceRun {
     Status status = find_pairs(options_, *kinematics_, around.value(), all_, seen("pairs"), stop.get_token());
     if (!status) return error(status.error());
     times_.push_back({"pairs", stopwatch.lap()});
-    if (options_.balls > 0) {
+    if (!answers_by_triangles()) {
       progress_.clear();
-      return {};  // their group follows
+      return {};
     }
     Result<BodyGroup> group = group_of(around.value());
     if (!group) return group.error();
@@ -132,25 +132,52 @@ class ClearanceRun {
     return {};
   }
 
-  /// With --balls, balls in the place of all solids.
+  bool answers_by_triangles() const { return options_.balls == 0 || options_.decide; }
+
+  /// With --balls, balls in the place of all solids. What was fitted is kept at once, since it took the most time.
   Status fit_balls() {
     if (options_.balls == 0) return {};
+    Stopwatch stopwatch;
+    Result<BallsOfSolids> known = known_balls(all_, options_, progress_);
+    if (!known) return known.error();
+    BallsOfSolids balls = known.value();
+    times_.push_back({"balls", stopwatch.lap()});
+    if (!balls.has_all()) {
+      if (Status status = fit_missing(balls); !status) return status;
+    }
+    if (!options_.bodies.empty()) {
+      if (Status status = keep_fitted_balls(all_, options_, known.value(), balls); !status) return status;
+      has_kept_ = balls.fitted > 0;
+    }
+    const Result<std::vector<GroupPart>> parts = bodies_of_balls(all_, balls);
+    if (!parts) return parts.error();
+    Result<BodyGroup> group = group_of(parts.value());
+    if (!group) return group.error();
+    balls_ = std::move(group).value();
+    times_.push_back({"balls", stopwatch.lap()});
+    if (!options_.quiet) print_message(balls_opening(options_, balls));
+    return {};
+  }
+
+  Status fit_missing(BallsOfSolids& balls) {
+    if (!options_.bodies.empty()) start_device();
     std::optional<Context> context;
     std::optional<DeviceDescription> device;
     if (Status status = opening_.take(context, device, times_); !status) return status;
     Stopwatch stopwatch;
     const std::stop_source stop;
-    Result<FittedLinks> fitted = fit_links(all_, options_, context, progress_, stop);
-    if (!fitted && fitted.error().code == ErrorCode::kInterrupted) return stopped();
-    if (!fitted) return with_hint(fitted.error(), options_.device);
-    Result<BodyGroup> group = group_of(fitted.value().parts);
-    if (!group) return group.error();
-    around_ = std::move(group).value();
+    Status status = fit_missing_balls(all_, options_, context, progress_, stop, balls);
+    if (!status && status.error().code == ErrorCode::kInterrupted) return stopped();
+    if (!status) return with_hint(status.error(), options_.device);
     times_.push_back({"balls", stopwatch.lap()});
-    if (options_.quiet) return {};
-    print_message(labelled("balls", fmt::format("{} inside and {} that cover, proved", grouped(fitted.value().inside),
-                                                grouped(fitted.value().cover))));
     return {};
+  }
+
+  /// The end by a signal, which may come after bodies were kept.
+  Error ended() const {
+    if (!has_kept_) return stopped();
+    return {ErrorCode::kInterrupted,
+            fmt::format("interrupted; the bodies in {} are kept, and nothing else was written", options_.bodies)};
   }
 
   /// The poses of all links, and of the scene, in some configurations.
@@ -172,26 +199,65 @@ class ClearanceRun {
     constexpr std::size_t kBlock = 1024;
     Stopwatch stopwatch;
     clearances_.resize(values_.size());
+    by_triangles_.assign(values_.size(), options_.balls == 0);
     std::vector<Pose> poses;
-    std::vector<LeastDistance> lower, upper;
     for (std::size_t begin = 0; begin < values_.size(); begin += kBlock) {
-      if (interrupted()) return stopped();
+      if (interrupted()) return ended();
       progress_.update("distances", static_cast<double>(begin) / static_cast<double>(values_.size()));
       const std::size_t count = std::min(kBlock, values_.size() - begin);
       poses.resize(count * all_.links());
       if (Status status = place(begin, poses); !status) return status;
-      lower.assign(count, {});
-      upper.assign(count, {});
-      Status status = least_distances(*around_, poses, lower, group_options(options_), {options_.threads});
+      const std::span<Clearance> clearances = std::span(clearances_).subspan(begin, count);
+      Status status = options_.balls > 0 ? answer_by_balls(poses, clearances) : answer_by_triangles(poses, clearances);
       if (!status) return status;
-      if (inside_) status = least_distances(*inside_, poses, upper, group_options(options_), {options_.threads});
-      if (!status) return status;
-      for (std::size_t i = 0; i < count; ++i) {
-        clearances_[begin + i] = clearance_of(lower[i], inside_ ? upper[i] : lower[i]);
-      }
+      if (!options_.decide) continue;
+      if (status = decide(begin, poses, clearances); !status) return status;
     }
     progress_.clear();
     times_.push_back({"distances", stopwatch.lap()});
+    return {};
+  }
+
+  Status answer_by_balls(std::span<const Pose> poses, std::span<Clearance> clearances) const {
+    std::vector<LeastDistance> least(clearances.size());
+    Status status = least_distances(*balls_, poses, least, group_options(options_), {options_.threads});
+    if (!status) return status;
+    for (std::size_t i = 0; i < clearances.size(); ++i) clearances[i] = clearance_of(least[i], least[i]);
+    return {};
+  }
+
+  Status answer_by_triangles(std::span<const Pose> poses, std::span<Clearance> clearances) const {
+    std::vector<LeastDistance> lower(clearances.size()), upper;
+    const GroupOptions of_triangles = triangle_options(options_);
+    Status status = least_distances(*around_, poses, lower, of_triangles, {options_.threads});
+    if (!status) return status;
+    if (inside_) {
+      upper.resize(clearances.size());
+      status = least_distances(*inside_, poses, upper, of_triangles, {options_.threads});
+      if (!status) return status;
+    }
+    for (std::size_t i = 0; i < clearances.size(); ++i) {
+      clearances[i] = clearance_of(lower[i], inside_ ? upper[i] : lower[i]);
+    }
+    return {};
+  }
+
+  /// With --decide: triangles answer where balls have left a configuration of a block undecided.
+  Status decide(std::size_t begin, std::span<const Pose> poses, std::span<Clearance> clearances) {
+    std::vector<std::size_t> undecided;
+    std::vector<Pose> of_undecided;
+    for (std::size_t i = 0; i < clearances.size(); ++i) {
+      if (clearances[i].collision() != Collision::kUndecided) continue;
+      undecided.push_back(i);
+      const auto first = poses.begin() + static_cast<std::ptrdiff_t>(i * all_.links());
+      of_undecided.insert(of_undecided.end(), first, first + static_cast<std::ptrdiff_t>(all_.links()));
+    }
+    std::vector<Clearance> decided(undecided.size());
+    if (Status status = answer_by_triangles(of_undecided, decided); !status) return status;
+    for (std::size_t k = 0; k < undecided.size(); ++k) {
+      clearances[undecided[k]] = std::move(decided[k]);
+      by_triangles_[begin + undecided[k]] = true;
+    }
     return {};
   }
 
@@ -200,7 +266,7 @@ class ClearanceRun {
     Clearance clearance = {std::min(around.lower, inside.upper), inside.upper, {}, {}};
     const PartPair& pair = inside.upper_pair.a != PartPair::kNone ? inside.upper_pair : around.lower_pair;
     if (pair.a == PartPair::kNone) return clearance;
-    std::uint32_t first = around_->parts()[pair.a].link, second = around_->parts()[pair.b].link;
+    std::uint32_t first = all_.solids.around[pair.a].link, second = all_.solids.around[pair.b].link;
     if (first > second) std::swap(first, second);
     clearance.first = all_.names[first];
     clearance.second = all_.names[second];
@@ -211,7 +277,7 @@ class ClearanceRun {
   Status check() {
     if (!options_.check) return {};
     const EndAtOnce while_checked;
-    if (interrupted()) return stopped();
+    if (interrupted()) return ended();
     std::vector<Pose> poses(values_.size() * all_.links());
     if (Status status = place(0, poses); !status) return status;
     std::vector<CheckedInterval> intervals;
@@ -226,10 +292,11 @@ class ClearanceRun {
   /// Files are made in memory: until they are written a signal may end the program.
   Status draw() {
     const EndAtOnce guard;
-    if (interrupted()) return stopped();
+    if (interrupted()) return ended();
     Stopwatch stopwatch;
-    const ClearanceView view = {all_, inside_ ? *inside_ : *around_, clearances_,
-                                [this](std::size_t i, std::span<Pose> poses) { return place(i, poses); }};
+    const ClearanceView view = {
+        all_,        balls_,        inside_ ? inside_ : around_,
+        clearances_, by_triangles_, [this](std::size_t i, std::span<Pose> poses) { return place(i, poses); }};
     progress_.update("picture", 0);
     Status status = append_clearance_views(options_, view, files_);
     progress_.clear();
@@ -256,6 +323,11 @@ class ClearanceRun {
     return checked;
   }
 
+  std::string summary() const {
+    const auto by_triangles = static_cast<std::size_t>(std::ranges::count(by_triangles_, true));
+    return clearance_summary(options_, clearances_, by_triangles, beyond_, times_, files_);
+  }
+
   Status report_check() const {
     if (!options_.check) return {};
     return print_check(check_, std::ranges::any_of(files_, [](const OutputFile& file) { return file.path == "-"; }));
@@ -267,10 +339,13 @@ class ClearanceRun {
   RobotAndScene all_;
   std::optional<Kinematics> kinematics_;
   std::vector<std::vector<double>> values_;  // of each configuration
-  std::size_t beyond_ = 0;                   // configurations beyond limits
-  std::optional<BodyGroup> around_;
+  BeyondLimits beyond_;
+  std::optional<BodyGroup> balls_;   // with --balls
+  std::optional<BodyGroup> around_;  // of triangles, where they answer
   std::optional<BodyGroup> inside_;  // none: the same
+  bool has_kept_ = false;            // bodies were written to the folder of --bodies
   std::vector<Clearance> clearances_;
+  std::vector<bool> by_triangles_;  // the origin of each clearance
   std::vector<StageTime> times_;
   CheckReport check_;
   std::vector<OutputFile> files_;

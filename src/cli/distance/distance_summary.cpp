@@ -28,8 +28,17 @@ std::string one_pose(const Distance& distance) {
          labelled("points", fmt::format("{} of A, {} of B", point_text(distance.on_a), point_text(distance.on_b)));
 }
 
+/// The balls that give an end of the interval, by their indices in the file.
+std::string pair_text(const char* set, const BallPair& pair) {
+  return pair.a == BallPair::kNone ? "" : fmt::format("{} {} of A and {} of B", set, pair.a, pair.b);
+}
+
 std::string one_pose(const DistanceBounds& bounds) {
-  return labelled("state", name_of(bounds.collision())) + labelled("distance", interval_text(bounds));
+  std::string text = labelled("state", name_of(bounds.collision())) + labelled("distance", interval_text(bounds));
+  const std::string lower = pair_text("lower end by cover", bounds.cover_pair);
+  const std::string upper = pair_text("upper end by inside", bounds.inside_pair);
+  if (lower.empty() && upper.empty()) return text;
+  return text + labelled("by", lower + (lower.empty() || upper.empty() ? "" : ", ") + upper);
 }
 
 template <class Interval>

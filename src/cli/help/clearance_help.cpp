@@ -19,14 +19,16 @@ Examples:
   medial-vk clearance robot.urdf --joints joints.csv --write-srdf robot.srdf -o self.csv
   medial-vk clearance robot.urdf --joints joints.csv --srdf robot.srdf --limit 0.05
   medial-vk clearance robot.urdf --joints joints.csv --balls 64 -o bounds.csv
+  medial-vk clearance robot.urdf --joints joints.csv --balls 64 --bodies kept
 
 What is compared:
       --joints FILE     a table (CSV) with a configuration per line, in radians
                         and metres. The first line names the columns, in any
                         order: one for each joint that moves and mimics no other
                         one; further columns are ignored; "-": standard input
-      --scene FILE      a mesh that the robot must not touch, in metres, in the
-                        frame of the robot's root; as often as needed
+      --scene FILE      a mesh that the robot must not touch, or a body file
+                        (.npz) of one, in metres, in the frame of the robot's
+                        root; as often as needed
       --srdf FILE       compare all pairs of links but those of the elements
                         <disable_collisions> (default: all but those that a
                         joint joins, that never move relative to each other, or
@@ -42,10 +44,17 @@ What is computed:
       --limit L         prove no more than that a distance is at least L
       --balls N         bounds by balls alone, without triangles: N that are
                         proved to lie inside the solids of each link, and N that
-                        cover them, fitted in this run; a file of the scene
-                        counts as a link. Wider intervals, for many configurations.
-                        The fits take seconds for each link (64 balls: 2 to 12
-                        on one core), and longer in proportion to N
+                        cover them, fitted in this run; a mesh of the scene
+                        counts as a link, and a body file has its own balls.
+                        Wider intervals, for many configurations. The fits take
+                        seconds for each link (64 balls: 2 to 12 on one core),
+                        and longer in proportion to N
+      --bodies FOLDER   with --balls: keep the balls there, in a body file for
+                        each mesh, and read those that earlier runs have kept
+                        for the same meshes, N and --resolution, with a proof,
+                        instead of fitting them again
+      --decide          with --balls: triangles answer for the configurations
+                        that balls leave undecided
       --keep-inner-faces
                         take faces inside a solid, such as those of a part that
                         reaches into another one, for its boundary, too

@@ -31,6 +31,8 @@ void declare_clearance(CLI::App& app, ClearanceOptions& options, ViewChoice& vie
   add.view("--view", view);
   add.up("--up", options.view.up);
   add.whole("--balls", 1, kMostBalls, " balls for each link", options.balls);
+  add.text("--bodies", "folder", options.bodies);
+  add.flag("--decide", options.decide);
   add.whole("--resolution", 1, 4096, " voxels", options.resolution);
   add.choice<Backend>("--backend", {{"vulkan", Backend::kVulkan}, {"cpu", Backend::kCpu}}, options.backend);
   add.text("--device", "index or name", options.device);
@@ -59,13 +61,18 @@ Status check_clearance_inputs(const ClearanceOptions& options) {
   return {};
 }
 
-/// Only the balls of links need a device, and they know no tolerance.
+/// Only the balls of links need a device and a folder, and they alone know no tolerance.
 Status check_balls_of_links(const ClearanceOptions& options) {
   if (options.balls == 0) {
+    if (!options.bodies.empty()) return usage_error("--bodies is about the balls of links: use it with --balls N");
+    if (options.decide) return usage_error("--decide is about what balls leave undecided: use it with --balls N");
     if (options.backend == Backend::kVulkan && options.device.empty() && options.resolution == 0) return {};
     return usage_error("--resolution, --backend and --device are about the fit of balls: use them with --balls N");
   }
-  if (options.tolerance > 0) return usage_error("--balls answers without triangles: it has no --tolerance");
+  if (options.bodies == "-") return usage_error("--bodies: '-' is no folder");
+  if (options.tolerance > 0 && !options.decide) {
+    return usage_error("--balls answers without triangles: it has no --tolerance, except with --decide");
+  }
   if (options.backend == Backend::kVulkan || options.device.empty()) return {};
   return usage_error("--device chooses a Vulkan device; it cannot be used with --backend cpu");
 }
@@ -91,6 +98,12 @@ GroupOptions group_options(const ClearanceOptions& options) {
   of_library.exact = options.balls == 0;
   of_library.tolerance = options.tolerance;
   if (options.limit > 0) of_library.limit = options.limit;
+  return of_library;
+}
+
+GroupOptions triangle_options(const ClearanceOptions& options) {
+  GroupOptions of_library = group_options(options);
+  of_library.exact = true;
   return of_library;
 }
 

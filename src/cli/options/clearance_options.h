@@ -31,6 +31,8 @@ struct ClearanceOptions {
   PictureView view;
 
   std::size_t balls = 0;         ///< Answers by balls alone, of so many for each link; 0: by triangles.
+  std::string bodies;            ///< A folder where bodies with these balls are kept; empty: none.
+  bool decide = false;           ///< Triangles answer where these balls leave a configuration undecided.
   std::uint32_t resolution = 0;  ///< Voxels along the longest side for these balls to choose from; 0: by their number.
   Backend backend = Backend::kVulkan;
   std::string device;
@@ -46,8 +48,10 @@ struct ClearanceOptions {
   bool operator==(const ClearanceOptions&) const = default;
 };
 
-/// In the form that the library takes.
+/// In the form that the library takes: for balls with `--balls`, else for triangles.
 GroupOptions group_options(const ClearanceOptions& options);
+/// For triangles.
+GroupOptions triangle_options(const ClearanceOptions& options);
 
 /// `arguments` without the program's name and without "clearance". Errors: kUsage with a message that names the option.
 Result<ClearanceOptions> parse_clearance_options(const std::vector<std::string>& arguments);

@@ -195,7 +195,11 @@ Status complete_files(SpheresOptions& options, const Given& given) {
 Status check_both(const SpheresOptions& options, const Given& given) {
   if (!options.both) return {};
   if (file_extension(options.input) == ".urdf") {
-    return usage_error("--contract both makes a body of one mesh; give the meshes of a robot one by one");
+    return usage_error(
+        "--contract both makes a body of one mesh. The bodies of a robot's links are made and kept by medial-vk "
+        "clearance "
+        "ROBOT.urdf --joints FILE.csv --balls N --bodies FOLDER; spheres for its links have --contract inside or "
+        "cover");
   }
   const std::pair<const char*, bool> of_one_set[] = {{"--each", options.each},
                                                      {"--levels", options.spheres.levels},

@@ -8,7 +8,6 @@
 #include "cli/shared/load.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/messages.h"
-#include "medial_vk/sphere_proofs.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -44,6 +43,15 @@ Status accept(const SphereProofs& proofs, const LoadedBody& body, const std::str
 
 }  // namespace
 
+Result<SphereProofs> prove_body(const LoadedBody& body, const std::string& path, unsigned threads) {
+  Result<SphereProofs> proofs = prove_spheres(body.mesh, body.inside, body.cover, {threads});
+  // Numbers out of range are those of the file.
+  const auto code_of = [](ErrorCode code) { return code == ErrorCode::kUsage ? ErrorCode::kInvalidMesh : code; };
+  if (!proofs) return Error{code_of(proofs.error().code), fmt::format("{}: {}", path, proofs.error().message)};
+  if (Status status = accept(proofs.value(), body, path); !status) return status.error();
+  return proofs;
+}
+
 Result<LoadedBody> load_body(const BodyFile& file, const std::string& path, unsigned threads,
                              std::vector<StageTime>& times) {
   // Faces were cut along their crossings, and those inside left out, before the balls were fitted.
@@ -56,11 +64,8 @@ Result<LoadedBody> load_body(const BodyFile& file, const std::string& path, unsi
   Result<IndexedMesh> indexed = IndexedMesh::build(std::move(prepared).value(), {.threads = threads});
   if (!indexed) return wrong(path, indexed.error().message);
   LoadedBody body = {std::move(indexed).value(), file.inside, file.cover};
-  const Result<SphereProofs> proofs = prove_spheres(body.mesh, body.inside, body.cover, {threads});
-  // Numbers out of range are those of the file.
-  const auto code_of = [](ErrorCode code) { return code == ErrorCode::kUsage ? ErrorCode::kInvalidMesh : code; };
-  if (!proofs) return Error{code_of(proofs.error().code), fmt::format("{}: {}", path, proofs.error().message)};
-  if (Status status = accept(proofs.value(), body, path); !status) return status.error();
+  const Result<SphereProofs> proofs = prove_body(body, path, threads);
+  if (!proofs) return proofs.error();
   times.push_back({"prove", stopwatch.lap()});
   return body;
 }

@@ -20,6 +20,7 @@ using Eigen::Vector3d;
 
 // Colours of sheets, by number.
 constexpr int kOfA = 0, kOfB = 1, kLine = 4;
+constexpr double kPoint = 0.012;  // The radius of a point, of the diagonal of everything.
 
 Vector3d vector(const Point& p) { return Vector3d(p.data()); }
 
@@ -39,7 +40,7 @@ class Marks {
     marks_.push_back(mark);
   }
 
-  void point(const Point& p, int colour) { ball(vector(p), 0.012 * size_, colour); }
+  void point(const Point& p, int colour) { ball(vector(p), kPoint * size_, colour); }
 
   /// A tube of balls that overlap.
   void line(const Point& from, const Point& to) {
@@ -99,21 +100,28 @@ std::string shortened(const std::string& name) {
   return name.substr(0, cut) + ".." + name.substr(rest);
 }
 
+bool has_common_point(const PairPicture& pair) { return pair.has_points && pair.on_a == pair.on_b; }
+
 std::vector<MedialSphere> marks_of(const PairPicture& pair, const PictureView& view) {
   Marks marks(diagonal_of(pair.mesh), Vector3d(view.towards.data()));
   for (const Ball& ball : pair.inside_a) marks.ball(vector(ball.centre), ball.radius, kOfA);
   for (const Ball& ball : pair.inside_b) marks.ball(vector(ball.centre), ball.radius, kOfB);
   for (const Ball& ball : pair.cover_a) marks.circle(ball, kOfA);
   for (const Ball& ball : pair.cover_b) marks.circle(ball, kOfB);
-  if (!pair.has_points) return marks.marks();
-  if (pair.on_a == pair.on_b) {
-    marks.point(pair.on_a, kLine);
-    return marks.marks();
-  }
+  if (!pair.has_points || has_common_point(pair)) return marks.marks();
   marks.line(pair.on_a, pair.on_b);
   marks.point(pair.on_a, kOfA);
   marks.point(pair.on_b, kOfB);
   return marks.marks();
+}
+
+/// Which balls are which.
+std::string note_of(const PairPicture& pair) {
+  const bool has_inside = !pair.inside_a.empty() || !pair.inside_b.empty();
+  const bool has_cover = !pair.cover_a.empty() || !pair.cover_b.empty();
+  std::string note = has_inside ? "solid: balls inside" : "";
+  if (has_inside && has_cover) note += ", ";
+  return has_cover ? note + "rings: balls of the covers" : note;
 }
 
 }  // namespace
@@ -134,6 +142,11 @@ Picture draw_pair(const PairPicture& pair, const PictureView& view) {
   }
   if (swatches.empty()) swatches.emplace_back(scene.palette.size(), "");  // no colour, and no bar of all of them
   if (pair.has_points) swatches.emplace_back(colour(kLine), pair.is_hit ? "common point" : "nearest points");
+  scene.legend.note = note_of(pair);
+  // In both solids, it would be hidden behind them and by the balls.
+  if (has_common_point(pair)) {
+    scene.on_top = {picture::make_mark(pair.mesh, pair.on_a, kPoint * diagonal_of(pair.mesh), colour(kLine))};
+  }
   Picture out;
   out.width = 1200;
   out.height = 900;

@@ -17,12 +17,13 @@ namespace medial_vk {
 struct PairPicture {
   Mesh mesh;  ///< The triangles of A, those of B, and those of everything else.
   std::size_t triangles_of_a = 0, triangles_of_b = 0;
-  std::string name_a = "a", name_b = "b";    ///< Empty: not in the legend.
-  bool has_points = false;                   ///< Whether there are nearest points.
-  bool is_hit = false;                       ///< They are proved to be one common point.
-  Point on_a = {0, 0, 0}, on_b = {0, 0, 0};  ///< The nearest points, joined by a line; or one common point.
-  std::vector<Ball> inside_a, inside_b;      ///< Drawn as balls in the glass of the meshes.
-  std::vector<Ball> cover_a, cover_b;        ///< Drawn as circles, since they would hide what they hold.
+  std::string name_a = "a", name_b = "b";  ///< Empty: not in the legend.
+  bool has_points = false;                 ///< Whether there are nearest points.
+  bool is_hit = false;                     ///< They are proved to be one common point.
+  /// The nearest points, joined by a line; or one common point, which shows through everything.
+  Point on_a = {0, 0, 0}, on_b = {0, 0, 0};
+  std::vector<Ball> inside_a, inside_b;  ///< Drawn as balls in the glass of the meshes.
+  std::vector<Ball> cover_a, cover_b;    ///< Drawn as circles, since they would hide what they hold.
   std::string title;
 };
 

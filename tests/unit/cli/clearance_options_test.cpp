@@ -97,6 +97,16 @@ TEST(ClearanceOptions, BallsOfLinks) {
   EXPECT_EQ(parsed_clearance(with({"--balls", "9", "--device", "1"})).device, "1");
   EXPECT_THAT(clearance_message(with({"--balls", "0"})), HasSubstr("not between 1 and"));
   EXPECT_THAT(clearance_message(with({"--balls", "9", "--tolerance", "0.1"})), HasSubstr("it has no --tolerance"));
+  const ClearanceOptions kept = parsed_clearance(with({"--balls", "9", "--bodies", "kept", "--decide"}));
+  EXPECT_EQ(kept.bodies, "kept");
+  EXPECT_TRUE(kept.decide);
+  EXPECT_FALSE(group_options(kept).exact);
+  EXPECT_TRUE(triangle_options(kept).exact);
+  const ClearanceOptions wide = parsed_clearance(with({"--balls", "9", "--decide", "--tolerance", "0.1"}));
+  EXPECT_EQ(triangle_options(wide).tolerance, 0.1);
+  EXPECT_THAT(clearance_message(with({"--bodies", "kept"})), HasSubstr("--bodies is about the balls"));
+  EXPECT_THAT(clearance_message(with({"--decide"})), HasSubstr("use it with --balls N"));
+  EXPECT_THAT(clearance_message(with({"--balls", "9", "--bodies", "-"})), HasSubstr("'-' is no folder"));
   EXPECT_THAT(clearance_message(with({"--backend", "cpu"})), HasSubstr("use them with --balls N"));
   EXPECT_THAT(clearance_message(with({"--resolution", "9"})), HasSubstr("use them with --balls N"));
   EXPECT_THAT(clearance_message(with({"--device", "1"})), HasSubstr("use them with --balls N"));

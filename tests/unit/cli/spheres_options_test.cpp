@@ -110,6 +110,8 @@ TEST(SpheresOptions, ABodyFileHasTwoSets) {
   EXPECT_THAT(message({"--picture", "a.body.npz"}), HasSubstr("does not end in .png"));
   EXPECT_THAT(message({"--histogram", "h.svg"}), HasSubstr("--contract inside, cover or balanced"));
   EXPECT_THAT(message({"-o", "a.csv"}), HasSubstr("does not end in .npz"));
+  EXPECT_THAT(spheres_message({"a.urdf", "--contract", "both", "--count", "9"}),
+              HasSubstr("medial-vk clearance ROBOT.urdf --joints FILE.csv --balls N --bodies FOLDER"));
   EXPECT_THAT(message({"-o", "a.npz", "--report", "a.npz"}), HasSubstr("same file"));
 }
 

@@ -1,6 +1,9 @@
 // The picture of two solids: each has its colour, and its name in the letters of the font.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <set>
 #include <string>
 #include <utility>
@@ -66,6 +69,58 @@ TEST(PairPicture, NamesOfAnyLengthAndLettersAreDrawn) {
     pictures.insert(draw_pair(pair, kFront).rgb);
   }
   EXPECT_EQ(pictures.size(), 3u);
+}
+
+/// The pixels above the legend that differ.
+std::vector<std::array<std::size_t, 2>> changed_pixels(const Picture& before, const Picture& after) {
+  std::vector<std::array<std::size_t, 2>> changed;
+  for (std::size_t y = 0; y < 780; ++y) {
+    for (std::size_t x = 0; x < before.width; ++x) {
+      const std::size_t at = (y * before.width + x) * 3;
+      if (!std::equal(&before.rgb[at], &before.rgb[at] + 3, &after.rgb[at])) changed.push_back({x, y});
+    }
+  }
+  return changed;
+}
+
+/// The point is in the middle of two balls that cover each other, in the middle of the picture of a box.
+TEST(PairPicture, ACommonPointShowsThroughBalls) {
+  PairPicture pair;
+  const Mesh box = test::make_box({1, 1, 1});
+  append(box, pair.mesh);
+  append(box, pair.mesh);
+  pair.triangles_of_a = pair.triangles_of_b = pair.mesh.triangles.size() / 2;
+  pair.inside_a = pair.inside_b = {{{0.5, 0.5, 0.5}, 0.5}};
+  const Picture without = draw_pair(pair, kFront);
+  pair.on_a = pair.on_b = {0.5, 0.5, 0.5};
+  pair.has_points = pair.is_hit = true;
+  const auto changed = changed_pixels(without, draw_pair(pair, kFront));
+  // A disc of about a 57th of the width of the box, and its rims.
+  EXPECT_GT(changed.size(), 100u);
+  double x = 0, y = 0;
+  for (const auto& pixel : changed) {
+    x += static_cast<double>(pixel[0]) / static_cast<double>(changed.size());
+    y += static_cast<double>(pixel[1]) / static_cast<double>(changed.size());
+  }
+  for (const auto& pixel : changed) {
+    EXPECT_LT(std::hypot(static_cast<double>(pixel[0]) - x, static_cast<double>(pixel[1]) - y), 30);
+  }
+  EXPECT_NEAR(x, 600, 2);
+}
+
+/// The legend says which balls are solid and which are rings, if there are any.
+TEST(PairPicture, TheLegendNamesTheBallsThatAreDrawn) {
+  PairPicture pair = two_boxes();
+  const std::vector<Ball> one = {{{0.5, 0.5, 0.5}, 0.4}};
+  const auto legend_of = [&](const std::vector<Ball>& inside, const std::vector<Ball>& cover) {
+    pair.inside_a = inside;
+    pair.cover_a = cover;
+    const std::vector<std::uint8_t> rgb = draw_pair(pair, kFront).rgb;
+    return std::vector<std::uint8_t>(rgb.begin() + 850 * 1200 * 3, rgb.end());
+  };
+  const std::set<std::vector<std::uint8_t>> legends = {legend_of({}, {}), legend_of(one, {}), legend_of({}, one),
+                                                       legend_of(one, one)};
+  EXPECT_EQ(legends.size(), 4u);
 }
 
 std::set<std::pair<std::uint32_t, std::uint32_t>> pixels_of(const std::string& text) {

@@ -219,14 +219,34 @@ TEST(Distance, OfTouchingSolidsIsZeroOrLittleMore) {
   }
 }
 
-// Where surfaces coincide and no edge crosses a face, balls inside still decide.
-TEST(Distance, BallsDecideWhereSurfacesCoincide) {
+TEST(Distance, OfCoincidingSurfacesIsAHit) {
   const Mesh mesh = make_box({1, 1, 1});
   const std::vector<Ball> inside = {{{0.5, 0.5, 0.5}, 0.4}};
   const Body a = Body::create(indexed(prepare_mesh(mesh).value()), inside).value();
   const Distance found = distance(a, a, Pose{}).value();
   EXPECT_EQ(found.collision(), Collision::kHit);
-  EXPECT_NEAR(length(found.on_a - Point{0.5, 0.5, 0.5}), 0, 0.4);
+  EXPECT_NEAR(length(found.on_a - Point{0.5, 0.5, 0.5}), 0, std::sqrt(0.75));
+}
+
+// Where a tolerance ends the search before triangles are known to cross, balls inside still decide.
+TEST(Distance, BallsDecideWhereTheSearchEndsBefore) {
+  const Mesh mesh = make_sphere(0.5, 180);
+  const std::vector<Ball> inside = {{{0.4, 0, 0}, 0.04}, {{0, 0, 0}, 0.3}};
+  const Body a = Body::create(indexed(prepare_mesh(mesh).value()), inside).value();
+  const Pose pose = make_pose({0.25, 0.1, 0.2}, {0, 0.3, 0});
+  const Distance found = distance(a, a, pose, {.tolerance = 1}).value();
+  EXPECT_EQ(found.collision(), Collision::kHit);
+  ASSERT_LT(found.inside_pair.a, inside.size());
+  ASSERT_LT(found.inside_pair.b, inside.size());
+  const Ball &of_a = inside[found.inside_pair.a], &of_b = inside[found.inside_pair.b];
+  // Up to the rounding of coordinates below 1.
+  EXPECT_LE(length(found.on_a - of_a.centre), of_a.radius + 0x1p-50);
+  EXPECT_LE(length(found.on_a - pose * of_b.centre), of_b.radius + 0x1p-50);
+  // Triangles decide all else, whatever the start names.
+  EXPECT_EQ(distance(a, a, pose, {}, found).value().inside_pair, BallPair());
+  EXPECT_EQ(distance(a, a, make_pose({2, 0.2, 0.1}, {0.1, 0, 0}), {}, found).value().inside_pair, BallPair());
+  const Body without = Body::create(indexed(prepare_mesh(mesh).value())).value();
+  EXPECT_EQ(distance(without, without, pose, {.tolerance = 1}).value().collision(), Collision::kUndecided);
 }
 
 TEST(Distance, OfFarSolidsHoldsTheirs) {

@@ -88,9 +88,10 @@ void draw_legend(const Scene& scene, Picture& picture) {
   Pen pen(picture);
   const bool has_bar = scene.legend.swatches.empty();
   const std::uint32_t margin = 16 * pen.scale();
-  const std::uint32_t width =
-      std::max(has_bar ? 130 * pen.scale() : swatches_width(scene, pen), pen.width_of(scene.legend.title));
-  const std::uint32_t height = 2 * pen.line() + 10 * pen.scale();
+  const std::uint32_t width = std::max({has_bar ? 130 * pen.scale() : swatches_width(scene, pen),
+                                        pen.width_of(scene.legend.title), pen.width_of(scene.legend.note)});
+  const std::uint32_t lines = scene.legend.note.empty() ? 2 : 3;
+  const std::uint32_t height = lines * pen.line() + 10 * pen.scale();
   if (picture.width < width + 2 * margin || picture.height < height + 2 * margin) return;  // no room
   const std::uint32_t left = picture.width - margin - width;
   const std::uint32_t top = picture.height - margin / 2 - height;
@@ -99,6 +100,7 @@ void draw_legend(const Scene& scene, Picture& picture) {
     draw_bar(scene, pen, left, top + pen.line(), width);
   } else {
     draw_swatches(scene, pen, left, top + pen.line());
+    pen.write(left, top + 2 * pen.line(), scene.legend.note);
   }
 }
 

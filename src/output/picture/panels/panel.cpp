@@ -240,6 +240,35 @@ void draw_band(const Scene& scene, const Panel& panel, const Camera& camera, con
   }
 }
 
+/// A disc with a dark rim and a white one around it, which are visible on every colour.
+void draw_on_top(const Mark& mark, const Scene& scene, const Panel& panel, const Camera& camera, Picture& picture) {
+  const ScreenPoint at = camera.project(mark.centre);
+  const float middle_x = at.x / kCpuSamples, middle_y = at.y / kCpuSamples;
+  const float rim = 1.5f * static_cast<float>(text_scale(picture));
+  const float radius = std::max(mark.radius * camera.scale_at(at.nearness) / kCpuSamples, 2 * rim);
+  const Vector3f& fill = scene.palette[static_cast<std::size_t>(mark.value)];
+  const auto width = static_cast<float>(panel.width), height = static_cast<float>(picture.height);
+  const float reach = radius + 2 * rim + 1;
+  const auto begin = [&](float middle) { return static_cast<std::uint32_t>(std::max(middle - reach, 0.0f)); };
+  const auto end = [&](float middle, float size) {
+    return static_cast<std::uint32_t>(std::clamp(middle + reach, 0.0f, size));
+  };
+  for (std::uint32_t y = begin(middle_y); y < end(middle_y, height); ++y) {
+    for (std::uint32_t x = begin(middle_x); x < end(middle_x, width); ++x) {
+      const float away = std::hypot(static_cast<float>(x) + 0.5f - middle_x, static_cast<float>(y) + 0.5f - middle_y);
+      std::uint8_t* out = &picture.rgb[(std::size_t{y} * picture.width + panel.left + x) * 3];
+      Vector3f colour = Vector3f(out[0], out[1], out[2]) / 255.0f;
+      const auto disc = [&](float to, const Vector3f& of_disc) {
+        colour = mix(colour, of_disc, std::clamp(to - away + 0.5f, 0.0f, 1.0f));
+      };
+      disc(radius + 2 * rim, Vector3f::Ones());
+      disc(radius + rim, to_srgb(kInk));
+      disc(radius, fill);
+      for (Eigen::Index channel = 0; channel < 3; ++channel) out[channel] = byte_of(colour[channel]);
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<Panel> panels_of(PictureShow show, std::uint32_t width) {
@@ -262,6 +291,7 @@ void draw_panel(const Scene& scene, const Panel& panel, const PictureView& view,
   for (std::uint32_t top = 0; top < picture.height; top += std::min(rows, picture.height - top)) {
     draw_band(scene, panel, camera, balls, {top, std::min(rows, picture.height - top)}, picture);
   }
+  for (const Mark& mark : scene.on_top) draw_on_top(mark, scene, panel, camera, picture);
 }
 
 }  // namespace medial_vk::picture

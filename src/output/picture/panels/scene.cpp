@@ -124,6 +124,11 @@ class Scale {
 
 }  // namespace
 
+Mark make_mark(const Mesh& mesh, const Point& centre, double radius, std::size_t colour) {
+  const Placement placement(mesh.vertices);
+  return {placement.point(centre), placement.length(radius), Vector3f::UnitZ(), static_cast<float>(colour), {}};
+}
+
 Scene make_scene(const Mesh& mesh, std::span<const MedialSphere> spheres, double voxel_size,
                  const PictureOptions& options) {
   const Placement placement(mesh.vertices);

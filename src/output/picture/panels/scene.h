@@ -39,14 +39,19 @@ struct Legend {
   std::string title;
   std::string least, greatest;                                // At the ends of the bar of all colours.
   std::vector<std::pair<std::size_t, std::string>> swatches;  // Of single colours, instead of the bar.
+  std::string note = {};                                      // A line below swatches; empty: none.
 };
 
 struct Scene {
   Surface mesh;
   std::vector<Mark> discs, balls;
+  std::vector<Mark> on_top = {};         // Points that show through everything. The CPU alone draws them.
   std::vector<Eigen::Vector3f> palette;  // sRGB.
   Legend legend;
 };
+
+/// A ball of `colour`, by its index in the palette, in the units of the camera that make_scene() has for the mesh.
+Mark make_mark(const Mesh& mesh, const Point& centre, double radius, std::size_t colour);
 
 /// `voxel_size` is in units of the mesh. Discs and balls are made only if they are shown.
 Scene make_scene(const Mesh& mesh, std::span<const MedialSphere> spheres, double voxel_size,

@@ -1,0 +1,220 @@
+#include "cli/clearance/kept_bodies.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <span>
+#include <system_error>
+#include <utility>
+
+#include "body_files/body_file.h"
+#include "cli/shared/load_body.h"
+#include "cli/terminal/interrupt.h"
+#include "cli/terminal/messages.h"
+#include "common/tool_errors.h"
+#include "medial_vk/ball_union.h"
+#include "medial_vk/version.h"
+
+namespace medial_vk::cli {
+namespace {
+
+/// FNV-1a over 64 bits, for names: the mesh of a file is compared besides.
+class Digest {
+ public:
+  void add_bytes(std::span<const std::byte> bytes) {
+    for (const std::byte byte : bytes) hash_ = (hash_ ^ std::to_integer<std::uint64_t>(byte)) * 0x100000001b3ull;
+  }
+  template <class T>
+  void add(const T& number) {
+    add_bytes(std::as_bytes(std::span(&number, 1)));
+  }
+  void add_solid(const LinkSolid& solid) {
+    add(solid.ball.has_value());
+    if (solid.ball) {
+      add(solid.ball->centre);
+      add(solid.ball->radius);
+      return;
+    }
+    const Mesh& mesh = solid.mesh.prepared().mesh;
+    add(mesh.vertices.size());
+    add_bytes(std::as_bytes(std::span(mesh.vertices)));
+    add(mesh.triangles.size());
+    add_bytes(std::as_bytes(std::span(mesh.triangles)));
+  }
+  std::string text() const { return fmt::format("{:016x}", hash_); }
+
+ private:
+  std::uint64_t hash_ = 0xcbf29ce484222325ull;
+};
+
+/// The name of a part or of a file without folder and ending, in letters that every file system takes.
+std::string plain_stem(const std::string& name) {
+  constexpr std::size_t kMost = 60;
+  std::string stem = std::filesystem::path(name).stem().string().substr(0, kMost);
+  for (std::size_t i = 0; i < stem.size(); ++i) {
+    const char c = stem[i];
+    const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+    if (!is_plain && (i == 0 || (c != '-' && c != '.'))) stem[i] = '_';
+  }
+  return stem;
+}
+
+/// All proofs of a body whose solid is between two meshes.
+Result<SphereProofs> prove_between(const std::string& path, const RobotAndScene& all, std::size_t number,
+                                   const SolidBalls& balls, unsigned threads) {
+  const IndexedMesh &around = all.solids.around[number].mesh, &inside = all.solids.inside[number].mesh;
+  if (!inside.is_same(around) && !balls.inside.empty()) {
+    const Result<SphereProofs> within = prove_body({inside, balls.inside, {}}, path, threads);
+    if (!within) return within.error();
+  }
+  return prove_body({around, balls.inside, balls.cover}, path, threads);
+}
+
+bool has_mesh_of(const BodyFile& file, const LinkSolid& solid) {
+  const Mesh& mesh = solid.mesh.prepared().mesh;
+  return file.mesh.vertices == mesh.vertices && file.mesh.triangles == mesh.triangles;
+}
+
+/// No point of a ball is farther from the solid than its radius less the depth of its centre.
+Result<Bounds> reach_out_of(const IndexedMesh& mesh, const std::vector<Ball>& balls, unsigned threads) {
+  std::vector<Point> centres;
+  centres.reserve(balls.size());
+  for (const Ball& ball : balls) centres.push_back(ball.centre);
+  std::vector<double> depths(balls.size());
+  if (Status status = measure_depths(mesh, centres, depths, {threads}); !status) return status.error();
+  double most = 0;
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    most = std::max(most, std::nextafter(balls[i].radius - depths[i], std::numeric_limits<double>::infinity()));
+  }
+  return Bounds{0, most};
+}
+
+Result<double> volume_of(const std::vector<Ball>& balls, unsigned threads) {
+  BallUnionOptions options;
+  options.threads = threads;
+  const Result<BallUnion> all = measure_ball_union(balls, options);
+  if (!all) return all.error();
+  return all.value().volume;
+}
+
+Result<BodyMeasures> measures_of(const LinkSolid& solid, const SolidBalls& balls, const SphereProofs& proofs,
+                                 unsigned threads) {
+  BodyMeasures measures;
+  measures.inside_excess = proofs.inside.greatest_excess;
+  measures.covered_triangles = proofs.cover.triangles;
+  measures.envelope_vertices = proofs.cover.vertices;
+  measures.solid_volume = solid.mesh.prepared().report.signed_volume;
+  if (!balls.inside.empty()) {
+    const Result<Bounds> gap = measure_gap(solid.mesh, balls.inside, {threads});
+    if (!gap) return gap.error();
+    measures.inside_gap = gap.value();
+  }
+  const Result<Bounds> reach_out = reach_out_of(solid.mesh, balls.cover, threads);
+  if (!reach_out) return reach_out.error();
+  measures.cover_reach_out = reach_out.value();
+  const Result<double> inside = volume_of(balls.inside, threads), cover = volume_of(balls.cover, threads);
+  if (!inside) return inside.error();
+  if (!cover) return cover.error();
+  measures.inside_volume = inside.value();
+  measures.cover_volume = cover.value();
+  return measures;
+}
+
+Error cannot_make(const std::string& folder, const std::string& reason) {
+  return {kCannotWrite, fmt::format("{}: {}", folder, reason)};
+}
+
+}  // namespace
+
+Status check_folder(const std::string& folder) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(folder, error);
+  if (std::filesystem::is_directory(status)) return {};
+  if (std::filesystem::exists(status)) return cannot_make(folder, "is no folder");
+  return check_writable(folder);
+}
+
+Status make_folder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directory(folder, error);
+  if (error) return cannot_make(folder, error.message());
+  return {};
+}
+
+std::vector<std::string> names_of_bodies(const RobotAndScene& all, const ClearanceOptions& options) {
+  const std::vector<LinkSolid>&around = all.solids.around, &inside = all.solids.inside;
+  std::vector<std::string> names;
+  names.reserve(around.size());
+  for (std::size_t begin = 0, end = 0; begin < around.size(); begin = end) {
+    Digest of_link;
+    of_link.add(kBodyFileFormat);
+    of_link.add(static_cast<std::uint64_t>(options.balls));
+    of_link.add(options.resolution);
+    for (end = begin; end < around.size() && around[end].link == around[begin].link; ++end) {
+      of_link.add_solid(around[end]);
+      of_link.add_solid(inside[end]);
+    }
+    for (std::size_t i = begin; i < end; ++i) {
+      Digest digest = of_link;
+      digest.add(static_cast<std::uint64_t>(i - begin));
+      names.push_back(fmt::format("{}-{}.body.npz", plain_stem(around[i].name), digest.text()));
+    }
+  }
+  return names;
+}
+
+Result<std::optional<SolidBalls>> read_kept_body(const std::string& path, const RobotAndScene& all, std::size_t number,
+                                                 unsigned threads) {
+  const EndAtOnce guard;
+  if (interrupted()) return stopped();
+  std::error_code error;
+  if (!std::filesystem::exists(path, error) && !error) return std::optional<SolidBalls>();
+  const auto refused = [](Error reason) {
+    if (reason.code == ErrorCode::kInvalidMesh) reason.message += "; remove the file to have the body fitted again";
+    return reason;
+  };
+  Result<BodyFile> file = read_body_file(path);
+  if (!file) return refused(file.error());
+  const LinkSolid& solid = all.solids.around[number];
+  if (!has_mesh_of(file.value(), solid)) {
+    return refused({ErrorCode::kInvalidMesh, fmt::format("{}: its mesh is not that of {}", path, solid.name)});
+  }
+  SolidBalls balls = {std::move(file.value().inside), std::move(file.value().cover)};
+  if (balls.cover.empty()) {
+    return refused({ErrorCode::kInvalidMesh, fmt::format("{}: the file has no balls that cover the mesh", path)});
+  }
+  const Result<SphereProofs> proofs = prove_between(path, all, number, balls, threads);
+  if (!proofs) return refused(proofs.error());
+  return std::optional(std::move(balls));
+}
+
+Result<OutputFile> encode_kept_body(const std::string& path, const RobotAndScene& all, std::size_t number,
+                                    const SolidBalls& balls, unsigned threads) {
+  const EndAtOnce guard;  // nothing is written yet
+  if (interrupted()) return stopped();
+  const Result<SphereProofs> proofs = prove_between(path, all, number, balls, threads);
+  if (!proofs) {
+    const bool is_refused = proofs.error().code == ErrorCode::kInvalidMesh;
+    return Error{is_refused ? ErrorCode::kInternal : proofs.error().code, proofs.error().message};
+  }
+  const LinkSolid& solid = all.solids.around[number];
+  const Result<BodyMeasures> measures = measures_of(solid, balls, proofs.value(), threads);
+  if (!measures) return measures.error();
+  BodyFile file;
+  file.version = version();
+  file.mesh.vertices = solid.mesh.prepared().mesh.vertices;
+  file.mesh.triangles = solid.mesh.prepared().mesh.triangles;
+  file.inside = balls.inside;
+  file.cover = balls.cover;
+  file.measures = measures.value();
+  Result<std::string> bytes = encode_body_file(file);
+  if (!bytes) return bytes.error();
+  return OutputFile{path, std::move(bytes).value()};
+}
+
+}  // namespace medial_vk::cli
