@@ -34,12 +34,13 @@ struct CoverFollowerOptions {
 
 /// Volumes of a frame, in cubed mesh units.
 struct CoverFollowMeasures {
-  /// Of the mesh, by its triangles: that of the solid if it is closed and no triangles cross. In a mirrored frame, too,
-  /// it is positive.
+  /// Of the mesh, by its triangles: that of the solid if no triangles cross. In a mirrored frame, too, it is positive.
+  /// NaN if it is known not to be that of the solid: the mesh is not closed, or the frame is flat, or parts overlap
+  /// such that they count more volume than the balls, which hold the solid, have.
   double solid_volume = 0;
   double ball_volume = 0;  ///< Of the union of the balls; exact.
 
-  /// Where solid_volume is that of a solid that is covered: the volume of the balls outside of it.
+  /// The volume of the balls outside of the solid, if that is covered; NaN where solid_volume is.
   double added() const { return ball_volume - solid_volume; }
 };
 

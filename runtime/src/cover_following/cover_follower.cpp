@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -94,7 +95,9 @@ class CoverFollower::Impl {
   Result<CoverFollowMeasures> measure() const {
     Result<double> volume = volume_of(balls_);
     if (!volume) return volume.error();
-    return CoverFollowMeasures{surface_.volume(), volume.value()};
+    // Where only the surface is covered, the solid may be larger than the balls.
+    const double most = state_ == CoverState::kSolid ? volume.value() : std::numeric_limits<double>::infinity();
+    return CoverFollowMeasures{surface_.solid_volume(0, most), volume.value()};
   }
 
  private:
