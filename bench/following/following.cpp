@@ -75,6 +75,19 @@ struct Times {
   }
 };
 
+/// There and back, the greatest share that is uncovered: without times, which measuring in between would change.
+double worst_share(Follower& follower, const Frames& frames) {
+  exit_unless(follower.reset());
+  double worst = uncovered(follower).share;
+  const auto take = [&](const std::vector<Point>& frame) {
+    exit_unless(follower.update(frame));
+    worst = std::max(worst, uncovered(follower).share);
+  };
+  for (const auto& frame : frames) take(frame);
+  for (std::size_t i = frames.size() - 1; i-- > 0;) take(frames[i]);
+  return worst;
+}
+
 void follow(const std::string& title, const Rule& rule, const IndexedMesh& mesh, std::span<const Ball> balls,
             const Frames& frames, int repeats, const std::string& fresh, unsigned threads) {
   FollowerOptions options;
@@ -86,28 +99,24 @@ void follow(const std::string& title, const Rule& rule, const IndexedMesh& mesh,
   const Uncovered rest = uncovered(follower);
   Times times;
   Uncovered end{}, back{};
-  double worst = rest.share;
   std::size_t medial = 0;
   for (int repeat = 0; repeat < repeats; ++repeat) {
-    const auto update = [&](const std::vector<Point>& frame) {
-      times.update(follower, frame);
-      if (repeat == 0) worst = std::max(worst, uncovered(follower).share);
-    };
     exit_unless(follower.reset());
-    for (const auto& frame : frames) update(frame);
+    for (const auto& frame : frames) times.update(follower, frame);
     end = uncovered(follower);
     medial = static_cast<std::size_t>(std::ranges::count(follower.states(), FollowState::kMedial));
-    for (std::size_t i = frames.size() - 1; i-- > 0;) update(frames[i]);
-    update({mesh.view().vertices.begin(), mesh.view().vertices.end()});
+    for (std::size_t i = frames.size() - 1; i-- > 0;) times.update(follower, frames[i]);
+    times.update(follower, {mesh.view().vertices.begin(), mesh.view().vertices.end()});
     back = uncovered(follower);
   }
   exit_unless(follower.reset());
   exit_unless(follower.update(frames.back()));
   const Uncovered at_once = uncovered(follower);
   fmt::print("| {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {} | {:.2f} | {:.2f} | {:.0f} | {:.2f} | {:.2f} |\n",
-             title, rule.name, rest.share, end.share, worst, at_once.share, fresh, back.share / rest.share,
-             end.outside_bound, 100.0 * static_cast<double>(medial) / static_cast<double>(balls.size()),
-             median(times.clock), median(times.processor));
+             title, rule.name, rest.share, end.share, worst_share(follower, frames), at_once.share, fresh,
+             back.share / rest.share, end.outside_bound,
+             100.0 * static_cast<double>(medial) / static_cast<double>(balls.size()), median(times.clock),
+             median(times.processor));
   std::fflush(stdout);
 }
 

@@ -27,7 +27,9 @@ struct CoverFollowerOptions {
   /// The number of steps that all balls take towards a smaller volume of the union in every frame. Each takes the time
   /// of one measure_ball_union() and some more.
   std::uint32_t steps = 0;
-  unsigned threads = 0;  ///< Of the host, 0: one per core. The result does not depend on it.
+  /// Of the host, 0: one per core; of those, a follower keeps as many as its balls give work to. The result does not
+  /// depend on it.
+  unsigned threads = 0;
 
   bool operator==(const CoverFollowerOptions&) const = default;
 };
