@@ -1,17 +1,21 @@
 #!/usr/bin/env python3
 """Writes a flattened torus as a binary PLY: a solid with a broad medial sheet, of any number of triangles.
-   bench/write_torus.py FILE.ply [TRIANGLES]      (default: 5,000,000)
-The tube's section is an ellipse of half axes 0.3 and 0.12 on a circle of radius 0.7, with ten waves along it."""
+   bench/write_torus.py FILE.ply [TRIANGLES] [--round]      (default: 5,000,000)
+The tube's section is an ellipse of half axes 0.3 and 0.12 on a circle of radius 0.7, with ten waves along it. --round: a
+circle of radius 0.3 on a circle of radius 1 instead, a tube without a broad sheet."""
 import array
 import math
 import sys
 
-if len(sys.argv) < 2 or sys.argv[1].startswith("-"):
+arguments = [argument for argument in sys.argv[1:] if argument != "--round"]
+is_round = len(arguments) < len(sys.argv) - 1
+if not arguments or arguments[0].startswith("-"):
     sys.exit(__doc__)
 
-# Around the tube and along the circle; two and a half times as many along, for triangles of even shape.
-triangles = int(sys.argv[2]) if len(sys.argv) > 2 else 5_000_000
-around = max(3, round(math.sqrt(triangles / 5)))
+# Around the tube and along the circle; two and a half times as many along, or twice as many of the round one, for
+# triangles of even shape.
+triangles = int(arguments[1]) if len(arguments) > 1 else 5_000_000
+around = max(3, round(math.sqrt(triangles / (4 if is_round else 5))))
 along = max(3, round(triangles / (2 * around)))
 
 points = array.array("f")
@@ -19,9 +23,9 @@ for i in range(along):
     u = 2 * math.pi * i / along
     for j in range(around):
         v = 2 * math.pi * j / around
-        radius = 0.7 + 0.3 * math.cos(v)
-        points.extend((radius * math.cos(u), radius * math.sin(u),
-                       0.12 * math.sin(v) * (1 + 0.2 * math.cos(10 * u))))
+        radius = (1 if is_round else 0.7) + 0.3 * math.cos(v)
+        height = 0.3 if is_round else 0.12 * (1 + 0.2 * math.cos(10 * u))
+        points.extend((radius * math.cos(u), radius * math.sin(u), height * math.sin(v)))
 
 # A face is a byte, 3, and three integers of 32 bits.
 faces = bytearray()
@@ -33,7 +37,7 @@ for i in range(along):
         for face in ((a, b, c), (a, c, d)):
             faces += b"\3" + array.array("i", face).tobytes()
 
-with open(sys.argv[1], "wb") as out:
+with open(arguments[0], "wb") as out:
     out.write(f"""ply
 format binary_little_endian 1.0
 element vertex {len(points) // 3}

@@ -176,7 +176,7 @@ int compare_naturally(std::string_view a, std::string_view b) {
 }
 
 bool is_frame_pattern(const std::string& path) {
-  return split(path).second.find_first_of("%#*?") != std::string::npos && !is_there(path);
+  return split(path).second.find_first_of("%#*?[") != std::string::npos && !is_there(path);
 }
 
 Result<std::vector<std::string>> files_of_pattern(const std::string& pattern) {
@@ -184,14 +184,16 @@ Result<std::vector<std::string>> files_of_pattern(const std::string& pattern) {
   if (folder.find_first_of("*?") != std::string::npos) {
     return usage_error(pattern, "is no pattern of files: * and ? stand in the name of a file, not of a folder");
   }
-  const bool has_wildcard = name.find_first_of("*?") != std::string::npos;
   const Result<NumberPattern> numbers = parse_number_pattern(pattern, name);
+  const bool has_number = numbers && numbers.value().digits > 0;
+  // Beside a number, brackets are a part of the name.
+  const bool has_wildcard = name.find_first_of(has_number ? "*?" : "*?[") != std::string::npos;
   if (!has_wildcard && !numbers) return numbers.error();
   if (!has_wildcard) {
-    if (numbers.value().digits == 0) return usage_error(pattern, "is no pattern of files: it has no number, * or ?");
+    if (!has_number) return usage_error(pattern, "is no pattern of files: it has no number, *, ? or [...]");
     return numbered_files(pattern, folder, numbers.value());
   }
-  if (numbers && numbers.value().digits > 0) {
+  if (has_number) {
     return usage_error(pattern, "is no pattern of files: it has a number and a wildcard");
   }
   return matching_files(pattern, folder, name);

@@ -15,7 +15,7 @@ bool is_frame_pattern(const std::string& path);
 /// The files that a pattern stands for. Its last part, the name of the file, has one of three forms:
 /// - walk_%04d.obj: a number with leading zeros, of at least 4 digits; %d: without leading zeros. %% is a percent sign.
 /// - walk_####.obj: the same as %04d, a digit for each #.
-/// - walk_*.obj: any characters for *, one for ?, and one of those in brackets, as in a shell.
+/// - walk_*.obj, walk_0[1-9].obj: any characters for *, one for ?, and one of those in brackets, as in a shell.
 /// Files of the first two are in the order of their numbers, from the least to the greatest that exists, and none
 /// between may be missing; those of the third in natural order, where 9 comes before 10, whatever is missing. Errors:
 /// kInvalidMesh (no file; names the first missing one; a folder that cannot be read), kUsage (no pattern: two numbers,

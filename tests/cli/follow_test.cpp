@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -94,6 +96,24 @@ TEST_F(FollowCommand, PatternsStandForTheirFilesInOrder) {
     EXPECT_EQ(frame_line(result.out, 1)[1], "box_0.obj") << "the pattern also stands for the rest pose";
     EXPECT_EQ(frame_line(result.out, 3)[3], frame_line(by_name.out, 2)[3]);
   }
+}
+
+TEST_F(FollowCommand, APatternAloneBeginsWithTheRestPose) {
+  const ToolResult by_name = follow_box({"-o", "-", "-q"});
+  ASSERT_EQ(by_name.exit_code, 0) << by_name.err;
+  for (const char* pattern : {"box_%d.obj", "box_*.obj", "box_[0-2].obj"}) {
+    const ToolResult result = follow({pattern, "--balls", "balls.csv", "-o", "-", "-q"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.out, by_name.out) << pattern;
+  }
+  ASSERT_EQ(follow({"box_*.obj", "--balls", "balls.csv", "-q"}).exit_code, 0);
+  EXPECT_THAT(folder_.names(), testing::Contains("box_0.follow.npz"));
+  const ToolResult one = follow({"box_[0].obj", "--balls", "balls.csv"});
+  EXPECT_EQ(one.exit_code, 2);
+  EXPECT_THAT(one.err, HasSubstr("'box_[0].obj' stands for box_0.obj alone"));
+  const ToolResult none = follow({"box_[7-9].obj", "--balls", "balls.csv"});
+  EXPECT_EQ(none.exit_code, 3);
+  EXPECT_THAT(none.err, HasSubstr("box_[7-9].obj: there is no such file"));
 }
 
 TEST_F(FollowCommand, TheSameRunGivesTheSameBytes) {
@@ -195,6 +215,48 @@ TEST_F(FollowCommand, CrossingFacesHaveNoVolume) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.err, HasSubstr("no volume is known"));
   EXPECT_EQ(frame_line(result.out, 1)[3], "");
+}
+
+// A mirrored solid has the volume of the solid. That of a flat or a folded frame does not follow from its triangles:
+// where the parts of a folded ball overlap, their winding numbers cancel, and so do the halves of a bow.
+TEST_F(FollowCommand, FramesWithoutAKnownVolumeSayNoShare) {
+  const Mesh ball = test::make_sphere(1, 300);
+  const auto write = [&](const char* name, const std::function<Point(const Point&)>& place) {
+    Mesh moved = ball;
+    for (Point& p : moved.vertices) p = place(p);
+    test::write_file(path(name), test::to_obj(moved));
+  };
+  write("rest.obj", [](const Point& p) { return p; });
+  write("mirrored.obj", [](const Point& p) { return Point{-p[0], p[1], p[2]}; });
+  write("inverted.obj", [](const Point& p) { return Point{-p[0], -p[1], -p[2]}; });
+  write("folded.obj", [](const Point& p) { return Point{std::fabs(p[0] - 0.2), p[1], p[2] + 0.5 * p[0]}; });
+  write("bow.obj", [](const Point& p) { return Point{p[0], (p[0] - 0.2) * p[1], p[2]}; });
+  write("flat.obj", [](const Point& p) { return Point{p[0], p[1], 0.1 * p[0] + 0.3 * p[1]}; });
+  test::write_file(path("cover.csv"), "x,y,z,radius\n0,0,0,1.01\n");
+  test::write_file(path("inside.csv"), "x,y,z,radius\n0,0,0,0.9\n0.5,0,0,0.25\n-0.5,0,0,0.25\n");
+  const auto run_on = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"rest.obj", "mirrored.obj", "inverted.obj", "folded.obj", "bow.obj", "flat.obj", "-o",
+                               "a.csv", "-o", "a.npz", "--html", "a.html", "--picture", "a.png"});
+    return follow(std::move(more));
+  };
+  for (const std::vector<std::string>& contract : {std::vector<std::string>{"--balls", "inside.csv"},
+                                                   {"--balls", "inside.csv", "--rule", "published"},
+                                                   {"--balls", "cover.csv", "--contract", "cover"}}) {
+    const ToolResult result = run_on(contract);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("; 3 frames have no known volume\n"));
+    EXPECT_THAT(result.err, HasSubstr("no volume is known of a frame that is flat, or whose faces cross"));
+    EXPECT_THAT(result.err, HasSubstr("2 frames are mirrored: their inside is that of the mesh turned inside out"));
+    const std::string table = read_file(path("a.csv"));
+    for (const std::size_t known : {0u, 1u, 2u}) {
+      EXPECT_NEAR(std::stod(frame_line(table, known)[3]), test::signed_volume(ball), 1e-12) << known;
+      EXPECT_GT(std::stod(frame_line(table, known)[5]), 0) << "share of " << known;
+    }
+    for (const std::size_t unknown : {3u, 4u, 5u}) {
+      EXPECT_EQ(frame_line(table, unknown)[3], "") << "solid_volume of " << unknown;
+      EXPECT_EQ(frame_line(table, unknown)[5], "") << "share of " << unknown;
+    }
+  }
 }
 
 TEST_F(FollowCommand, AnOpenMeshWithoutBallsInsideIsRefused) {

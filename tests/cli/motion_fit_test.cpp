@@ -101,6 +101,10 @@ TEST_F(MotionFitCommand, FollowsAnAnimation) {
   EXPECT_THAT(result.err, HasSubstr("31 frames"));
   EXPECT_THAT(result.err, HasSubstr("bow.spheres.csv"));
   EXPECT_EQ(std::ranges::count(read_file(path("bow.spheres.csv")), '\n'), 5);
+  const std::string spheres = read_file(path("bow.spheres.csv"));
+  const ToolResult alone = fit({"bow.glb", "--count", "4", "--frames", "--animation", "bow"});
+  ASSERT_EQ(alone.exit_code, 0) << alone.err;
+  EXPECT_EQ(read_file(path("bow.spheres.csv")), spheres) << "without a file, --frames stands for bow.glb";
   const ToolResult none = fit({"bow.glb", "--count", "4", "--frames", "bow.glb", "--animation", "jump"});
   EXPECT_EQ(none.exit_code, 2);
   EXPECT_THAT(none.err, HasSubstr("bow"));
@@ -113,13 +117,27 @@ TEST_F(MotionFitCommand, FramesWithoutAVolumeAreCounted) {
   for (const char* name : {"flat_0.obj", "flat_1.obj"}) test::write_file(path(name), test::to_obj(flat));
   const ToolResult one = fit({"box_0.obj", "--count", "4", "--frames", "box_1.obj", "flat_0.obj"});
   ASSERT_EQ(one.exit_code, 0) << one.err;
-  EXPECT_THAT(one.err, HasSubstr("; 1 frame has no volume\n"));
+  EXPECT_THAT(one.err, HasSubstr("; 1 frame has no known volume\n"));
   const ToolResult two = fit({"box_0.obj", "--count", "4", "--frames", "flat_0.obj", "box_1.obj", "flat_1.obj"});
   ASSERT_EQ(two.exit_code, 0) << two.err;
-  EXPECT_THAT(two.err, HasSubstr("; 2 frames have no volume\n"));
+  EXPECT_THAT(two.err, HasSubstr("; 2 frames have no known volume\n"));
   const ToolResult followed = run({"follow", "box_0.obj", "flat_0.obj", "--balls", "box_0.spheres.csv"});
   ASSERT_EQ(followed.exit_code, 0) << followed.err;
-  EXPECT_THAT(followed.err, HasSubstr("; 1 frame has no volume\n"));
+  EXPECT_THAT(followed.err, HasSubstr("; 1 frame has no known volume\n"));
+}
+
+// The far half of the box is turned over: its volume is taken from that of the near half.
+TEST_F(MotionFitCommand, FramesWhoseFacesCrossAreLeftOut) {
+  Mesh crossed = test::make_box({2, 1, 1});
+  for (Point& p : crossed.vertices) {
+    if (p[0] > 1) p[1] = 1.25 - 1.5 * p[1];
+  }
+  test::write_file(path("crossed.obj"), test::to_obj(crossed));
+  const ToolResult result = fit({"box_0.obj", "--count", "4", "--frames", "box_1.obj", "crossed.obj"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(shares_in(result.err, "uncovered"),
+            shares_in(fit({"box_0.obj", "--count", "4", "--frames", "box_1.obj"}).err, "uncovered"));
+  EXPECT_THAT(result.err, HasSubstr("; 1 frame has no known volume\n"));
 }
 
 // The line with the mesh and the number of frames comes before the fit.

@@ -10,6 +10,7 @@
 #include "base/point_ops.h"
 #include "fault_test.h"
 #include "lent_device.h"
+#include "medial_vk/cover_follower.h"
 #include "medial_vk/extraction_job.h"
 #include "medial_vk/follower.h"
 #include "medial_vk/follower_job.h"
@@ -232,7 +233,8 @@ std::vector<Point> bent(const IndexedMesh& mesh, int frame) {
 }
 
 /// True if the update has allocated, on this thread.
-bool allocates(Follower& follower, const std::vector<Point>& frame) {
+template <class AnyFollower>
+bool allocates(AnyFollower& follower, const std::vector<Point>& frame) {
   fail_new(1);
   const Status status = in_runtime([&] { return follower.update(frame); });
   const bool has_allocated = stop_failing_new();
@@ -278,6 +280,43 @@ TEST(FramesOfBalls, AllocateNothing) {
       EXPECT_TRUE(in_runtime([&] { return follower.reset(); }).ok());
       EXPECT_FALSE(stop_failing_new());
     }
+  }
+}
+
+// Likewise covers whose cavities are not searched for. Steps on one thread: on several, memory that a thread keeps for
+// the cells of a union depends on which balls it has taken.
+TEST(FramesOfCovers, AllocateNothing) {
+  const IndexedMesh mesh = indexed(prepare(make_torus(1.0, 0.4, 24, 12)));
+  std::vector<Ball> balls;
+  for (int i = 0; i < 80; ++i) {
+    const double angle = 0.08 * i;
+    balls.push_back({{std::cos(angle), std::sin(angle), 0}, 0.5});
+  }
+  struct Case {
+    unsigned threads;
+    std::uint32_t steps;
+  };
+  for (const auto& [threads, steps] : {Case{1, 0}, Case{3, 0}, Case{1, 1}, Case{1, 2}}) {
+    SCOPED_TRACE(testing::Message() << threads << " threads, steps: " << steps);
+    CoverFollowerOptions options;
+    options.surface_only = true;
+    options.threads = threads;
+    options.steps = steps;
+    CoverFollower follower = CoverFollower::create(mesh, balls, options).value();
+    const int motions = steps > 0 ? 3 : 1;
+    for (int motion = 1; motion <= motions; ++motion) {
+      for (int frame = 0; frame < 10; ++frame) {
+        const std::vector<Point> vertices = bent(mesh, frame);
+        if (motion == motions) {
+          EXPECT_FALSE(allocates(follower, vertices)) << "frame " << frame;
+        } else {
+          EXPECT_TRUE(in_runtime([&] { return follower.update(vertices); }).ok());
+        }
+      }
+    }
+    fail_new(1);
+    EXPECT_TRUE(in_runtime([&] { return follower.reset(); }).ok());
+    EXPECT_FALSE(stop_failing_new());
   }
 }
 

@@ -27,19 +27,22 @@ struct CoverFollowerOptions {
   /// The number of steps that all balls take towards a smaller volume of the union in every frame. Each takes the time
   /// of one measure_ball_union() and some more.
   std::uint32_t steps = 0;
-  unsigned threads = 0;  ///< Of the host, 0: one per core. The result does not depend on it.
+  /// Of the host, 0: one per core; of those, a follower keeps as many as its balls give work to. The result does not
+  /// depend on it.
+  unsigned threads = 0;
 
   bool operator==(const CoverFollowerOptions&) const = default;
 };
 
 /// Volumes of a frame, in cubed mesh units.
 struct CoverFollowMeasures {
-  /// Of the mesh, by its triangles: that of the solid if it is closed and no triangles cross. In a mirrored frame, too,
-  /// it is positive.
+  /// Of the mesh, by its triangles: that of the solid if no triangles cross. In a mirrored frame, too, it is positive.
+  /// NaN if it is known not to be that of the solid: the mesh is not closed, or the frame is flat, or parts overlap
+  /// such that they count more volume than the balls, which hold the solid, have.
   double solid_volume = 0;
   double ball_volume = 0;  ///< Of the union of the balls; exact.
 
-  /// Where solid_volume is that of a solid that is covered: the volume of the balls outside of it.
+  /// The volume of the balls outside of the solid, if that is covered; NaN where solid_volume is.
   double added() const { return ball_volume - solid_volume; }
 };
 

@@ -66,15 +66,16 @@ enum class FollowOrigin : std::uint8_t {
 
 /// Numbers of a frame, in mesh units.
 struct FollowMeasures {
-  /// Of the mesh, by its triangles: that of the solid if it is closed and no triangles cross. In a mirrored frame, too,
-  /// it is positive.
+  /// Of the mesh, by its triangles: that of the solid if no triangles cross. In a mirrored frame, too, it is positive.
+  /// NaN if it is known not to be that of the solid: the mesh is not closed, or the frame is flat, or folded or turned
+  /// over in parts such that less volume remains than the balls inside have.
   double solid_volume = 0;
   double ball_volume = 0;  ///< Of the union of the balls; exact.
   /// An upper bound of the volume of the balls outside the solid: vol(U) - vol(U^xi) of Lemma 7.3; kTangent: 0.
   double outside_bound = 0;
 
-  /// Where solid_volume is that of the solid. kTangent: the volume of the solid in no ball. kPublished: less than that,
-  /// by the volume of the balls outside; Lemma 7.3 bounds the volume error by uncovered() + 2 outside_bound.
+  /// NaN where solid_volume is. kTangent: the volume of the solid in no ball. kPublished: less than that, by the volume
+  /// of the balls outside; Lemma 7.3 bounds the volume error by uncovered() + 2 outside_bound.
   double uncovered() const { return solid_volume - ball_volume; }
 };
 

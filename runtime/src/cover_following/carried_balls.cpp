@@ -32,7 +32,7 @@ double greatest_coordinate(const Corners3& corners) {
 
 }  // namespace
 
-const Point& CarriedBalls::Held::farthest(const Point& from) const {
+const Point& HeldCorners::farthest(const Point& from) const {
   std::size_t out = 0;
   double most = -1;
   for (std::size_t k = 0; k < points.size(); ++k) {
@@ -46,7 +46,7 @@ const Point& CarriedBalls::Held::farthest(const Point& from) const {
 }
 
 /// Distances have relative errors of 4 units, and so has the radius.
-Ball CarriedBalls::Held::around(const Point& centre) const {
+Ball HeldCorners::around(const Point& centre) const {
   return {centre, length(farthest(centre) - centre) * (1 + 16 * kRounding) + room};
 }
 
@@ -68,6 +68,7 @@ void CarriedBalls::prepare(const MovingSurface& surface, std::size_t i, double r
     total += patch.area;
     corners += patch.count;
   }
+  most_corners_ = std::max(most_corners_, static_cast<std::size_t>(corners));
   Point mean{};
   const auto for_corners = [&](const auto& visit) {
     for (const Patch& patch : patches_.of(i)) {
@@ -126,8 +127,8 @@ Point CarriedBalls::carried(const MovingSurface& surface, std::size_t i) const {
 /// Three products and two sums, all of at most the greatest coordinate, are rounded in each coordinate of a point,
 /// whose error is then below 7 units of it. The room is much greater than that, so that proofs by division into parts
 /// end.
-CarriedBalls::Held CarriedBalls::held(const MovingSurface& surface, std::size_t i) const {
-  Held held;
+void CarriedBalls::hold(const MovingSurface& surface, std::size_t i, HeldCorners& held) const {
+  held.points.clear();
   double greatest = 0;
   for (const Patch& patch : patches_.of(i)) {
     const Corners3 corners = surface.corners(patch.triangle);
@@ -137,25 +138,25 @@ CarriedBalls::Held CarriedBalls::held(const MovingSurface& surface, std::size_t 
     }
   }
   held.room = kRoomOfSide * surface.longest_side() + kRoomOfCoordinate * kRounding * greatest;
-  return held;
 }
 
-Ball CarriedBalls::ball(const MovingSurface& surface, std::size_t i) const {
+Ball CarriedBalls::ball(const MovingSurface& surface, std::size_t i, HeldCorners& memory) const {
   if (!has_patches(i)) return {centres_[i], 0};
-  return held(surface, i).around(carried(surface, i));
+  hold(surface, i, memory);
+  return memory.around(carried(surface, i));
 }
 
 /// The function is convex; its gradient is the vector less `area` times the direction to the farthest point.
 Ball CarriedBalls::shifted(const MovingSurface& surface, std::size_t i, const Ball& ball, double area,
-                           const Point& vector, double reach) const {
+                           const Point& vector, double reach, HeldCorners& memory) const {
   constexpr int kSteps = 12;
   if (!has_patches(i) || !(area > 0)) return ball;
-  const Held points = held(surface, i);
+  hold(surface, i, memory);
   Ball best = ball;
   double least = area * ball.radius;
   Point centre = ball.centre;
   for (int step = 0; step < kSteps; ++step) {
-    const Point out = points.farthest(centre) - centre;
+    const Point out = memory.farthest(centre) - centre;
     const double radius = length(out);
     const Point moved = centre - ball.centre;
     const double value = area * radius + dot(vector, moved);
@@ -168,7 +169,7 @@ Ball CarriedBalls::shifted(const MovingSurface& surface, std::size_t i, const Ba
     if (!(slope > 0)) break;
     centre = centre - (reach / (2 + step) / slope) * gradient;
   }
-  return points.around(best.centre);
+  return memory.around(best.centre);
 }
 
 }  // namespace medial_vk

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "ball_unions/unions/union_measurer.h"
 #include "base/host_memory.h"
 #include "base/parallel.h"
 #include "cover_following/carried_balls.h"
@@ -14,6 +16,7 @@
 #include "cover_following/patches.h"
 #include "following/moving_surface.h"
 #include "medial_vk/ball_union.h"
+#include "threads/worker_pool.h"
 
 namespace medial_vk {
 namespace {
@@ -45,9 +48,13 @@ class CoverFollower::Impl {
                                               const CoverFollowerOptions& options) {
     Result<MovingSurface> surface = MovingSurface::build(rest, MovingSurface::Sides::kUnneeded);
     if (!surface) return surface.error();
-    std::unique_ptr<Impl> impl(new Impl(std::move(surface).value(), options));
+    const std::size_t blocks = std::max<std::size_t>(1, (balls.size() + kAtOnce - 1) / kAtOnce);
+    const auto threads = static_cast<unsigned>(std::min<std::size_t>(thread_count(options.threads), blocks));
+    std::unique_ptr<Impl> impl(new Impl(std::move(surface).value(), options, threads));
     impl->rest_ = impl->carried_ = impl->divided(balls);
     impl->balls_.resize(balls.size());
+    impl->present_.resize(balls.size());
+    impl->next_.resize(balls.size());
     if (Status status = impl->follow(); !status) return status.error();
     return impl;
   }
@@ -94,7 +101,9 @@ class CoverFollower::Impl {
   Result<CoverFollowMeasures> measure() const {
     Result<double> volume = volume_of(balls_);
     if (!volume) return volume.error();
-    return CoverFollowMeasures{surface_.volume(), volume.value()};
+    // Where only the surface is covered, the solid may be larger than the balls.
+    const double most = state_ == CoverState::kSolid ? volume.value() : std::numeric_limits<double>::infinity();
+    return CoverFollowMeasures{surface_.solid_volume(0, most), volume.value()};
   }
 
  private:
@@ -104,7 +113,8 @@ class CoverFollower::Impl {
     CoverState state;
   };
 
-  Impl(MovingSurface surface, const CoverFollowerOptions& options) : surface_(std::move(surface)), options_(options) {}
+  Impl(MovingSurface surface, const CoverFollowerOptions& options, unsigned threads)
+      : surface_(std::move(surface)), options_(options), pool_(threads), memory_(pool_.threads()) {}
 
   Result<double> volume_of(std::span<const Ball> balls) const {
     Result<BallUnion> measured = measure_ball_union(balls, BallUnionOptions{options_.threads});
@@ -119,22 +129,21 @@ class CoverFollower::Impl {
   }
 
   /// Steps of all balls at once towards a smaller volume; shorter ones after one that has not led there.
-  Status shrink(const CarriedBalls& carried, std::uint32_t steps, std::vector<Ball>& balls) const {
+  Status shrink(const CarriedBalls& carried, std::uint32_t steps, std::vector<Ball>& balls) {
     if (steps == 0) return {};
-    Result<BallUnion> present = measure_ball_union(balls, BallUnionOptions{options_.threads});
-    if (!present) return present.error();
-    std::vector<Ball> next(balls.size());
+    UnionMeasurer *present = &measurers_[0], *other = &measurers_[1];
+    if (Status status = present->measure(balls, false, pool_); !status) return status;
     double share = kFirstReach;
     for (std::uint32_t step = 0; step < steps; ++step) {
-      const BallUnion& exposed = present.value();
-      parallel_for(balls.size(), kAtOnce, options_.threads, [&](std::size_t i) {
-        next[i] = carried.shifted(surface_, i, balls[i], exposed.areas[i], exposed.vectors[i], share * balls[i].radius);
+      const BallUnion& exposed = present->result();
+      pool_.run(balls.size(), kAtOnce, [&](std::size_t i, unsigned worker) {
+        next_[i] = carried.shifted(surface_, i, balls[i], exposed.areas[i], exposed.vectors[i], share * balls[i].radius,
+                                   memory_[worker]);
       });
-      Result<BallUnion> measured = measure_ball_union(next, BallUnionOptions{options_.threads});
-      if (!measured) return measured.error();
-      if (measured.value().volume < exposed.volume) {
-        std::ranges::copy(next, balls.begin());
-        present = std::move(measured);
+      if (Status status = other->measure(next_, false, pool_); !status) return status;
+      if (other->result().volume < exposed.volume) {
+        std::ranges::copy(next_, balls.begin());
+        std::swap(present, other);
       } else {
         share *= 0.5;
       }
@@ -143,7 +152,7 @@ class CoverFollower::Impl {
   }
 
   /// The boundary of the present frame, divided anew. Later frames begin where the steps have ended.
-  Result<Cover> tightened(std::vector<Ball> balls, std::uint32_t steps) const {
+  Result<Cover> tightened(std::vector<Ball> balls, std::uint32_t steps) {
     std::shared_ptr<const CarriedBalls> carried = divided(balls);
     if (Status status = place(*carried, steps, balls); !status) return status.error();
     carried = std::make_shared<const CarriedBalls>(surface_, carried->patches(), balls);
@@ -153,9 +162,11 @@ class CoverFollower::Impl {
   }
 
   /// The balls of the present frame, which hold its triangles, replace `balls`.
-  Status place(const CarriedBalls& carried, std::uint32_t steps, std::vector<Ball>& balls) const {
-    parallel_for(carried.size(), kAtOnce, options_.threads,
-                 [&](std::size_t i) { balls[i] = carried.ball(surface_, i); });
+  Status place(const CarriedBalls& carried, std::uint32_t steps, std::vector<Ball>& balls) {
+    // Which thread takes which balls is not the same in each frame.
+    for (HeldCorners& memory : memory_) memory.points.reserve(carried.most_corners());
+    pool_.run(carried.size(), kAtOnce,
+              [&](std::size_t i, unsigned worker) { balls[i] = carried.ball(surface_, i, memory_[worker]); });
     return shrink(carried, steps, balls);
   }
 
@@ -177,17 +188,20 @@ class CoverFollower::Impl {
   }
 
   Status follow() {
-    std::vector<Ball> present = balls_;
-    if (Status status = place(*carried_, options_.steps, present); !status) return status.error();
-    const Result<CoverState> state = hold(present);
+    if (Status status = place(*carried_, options_.steps, present_); !status) return status.error();
+    const Result<CoverState> state = hold(present_);
     if (!state) return state.error();
-    std::ranges::copy(present, balls_.begin());
+    std::ranges::copy(present_, balls_.begin());
     state_ = state.value();
     return {};
   }
 
   MovingSurface surface_;
   CoverFollowerOptions options_;
+  WorkerPool pool_;                  // of loops over balls, which come several times a frame
+  std::vector<HeldCorners> memory_;  // by worker
+  UnionMeasurer measurers_[2];       // of the present balls, and of those of the next step
+  std::vector<Ball> present_, next_;
   std::shared_ptr<const CarriedBalls> rest_, carried_;  // of the rest pose; of the frame of the last tighten()
   std::vector<Ball> balls_;
   CoverState state_ = CoverState::kSurface;

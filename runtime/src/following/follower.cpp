@@ -111,17 +111,21 @@ class Follower::Impl {
   std::span<const FollowOrigin> origins() const { return origins_; }
 
   Result<FollowMeasures> measure() const {
+    constexpr double kAnyVolume = std::numeric_limits<double>::infinity();
     FollowMeasures measures;
-    measures.solid_volume = surface_.volume();
     Result<BallUnion> balls = measure_ball_union(balls_, BallUnionOptions{options_.threads});
     if (!balls) return balls.error();
     measures.ball_volume = balls.value().volume;
-    if (options_.rule == FollowRule::kTangent) return measures;
+    if (options_.rule == FollowRule::kTangent) {
+      measures.solid_volume = surface_.solid_volume(measures.ball_volume, kAnyVolume);
+      return measures;
+    }
     std::vector<Ball> within = balls_;
     for (Ball& ball : within) ball.radius = std::max(0.0, ball.radius - protrusion());
     Result<BallUnion> inner = measure_ball_union(within, BallUnionOptions{options_.threads});
     if (!inner) return inner.error();
     measures.outside_bound = measures.ball_volume - inner.value().volume;
+    measures.solid_volume = surface_.solid_volume(inner.value().volume, kAnyVolume);
     return measures;
   }
 

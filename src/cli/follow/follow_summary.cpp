@@ -39,18 +39,13 @@ std::string rule_text(const FollowOptions& options) {
   return options.from_rest ? text + "; each frame from rest" : text;
 }
 
-/// Uncovered or added, of which the record has one.
-double error_percent(const FollowedFrame& frame) {
-  return frame.cover ? frame.cover->added_percent() : frame.uncovered_percent();
-}
-
-/// At rest, on average and at most, as per cent of the solid; frames without a volume are left out.
+/// At rest, on average and at most, as per cent of the solid; frames whose volume is not known are left out.
 std::string error_text(const MotionRecord& record) {
   double sum = 0, most = 0;
   std::size_t count = 0;
   const FollowedFrame* worst = nullptr;
   for (const FollowedFrame& frame : record.frames) {
-    const double percent = error_percent(frame);
+    const double percent = frame.error_percent();
     if (!std::isfinite(percent)) continue;
     ++count;
     sum += percent;
@@ -58,14 +53,36 @@ std::string error_text(const MotionRecord& record) {
     worst = &frame;
     most = percent;
   }
-  if (worst == nullptr) return "no frame has a volume";
+  if (worst == nullptr) return "no frame has a known volume";
   std::string text = fmt::format("{:.2f} % of the solid on average, {:.2f} % at most ({})",
                                  sum / static_cast<double>(count), most, medial_vk::quoted(worst->name));
-  const double rest = error_percent(record.frames.front());
+  const double rest = record.frames.front().error_percent();
   if (std::isfinite(rest)) text = fmt::format("{:.2f} % at rest, {}", rest, text);
   const std::size_t without = record.frames.size() - count;
   if (without == 0) return text;
-  return fmt::format("{}; {}", text, counted(without, "frame has no volume", "frames have no volume"));
+  return fmt::format("{}; {}", text, counted(without, "frame has no known volume", "frames have no known volume"));
+}
+
+/// What a reader of the volumes must know of frames, if anything.
+std::string frame_notes(const MotionRecord& record) {
+  bool has_unknown = false;
+  std::uint64_t mirrored = 0;
+  for (const FollowedFrame& frame : record.frames) {
+    const bool is_known = std::isfinite(frame.solid_volume());
+    has_unknown |= !is_known;
+    mirrored += is_known && frame.is_mirrored ? 1 : 0;
+  }
+  std::string text;
+  if (has_unknown) {
+    text += labelled("note",
+                     "no volume is known of a frame that is flat, or whose faces cross, lie inside or are turned over");
+  }
+  if (mirrored > 0) {
+    text += labelled("note", fmt::format("{}: {} inside is that of the mesh turned inside out",
+                                         counted(mirrored, "frame is mirrored", "frames are mirrored"),
+                                         mirrored == 1 ? "its" : "their"));
+  }
+  return text;
 }
 
 std::string states_text(const MotionRecord& record) {
@@ -162,6 +179,7 @@ std::string follow_summary(const FollowOptions& options, const MotionRecord& rec
   if (options.follower.rule == FollowRule::kPublished && record.has_volume) {
     text += labelled("outside", outside_text(record));
   }
+  if (record.has_volume) text += frame_notes(record);
   if (record.renews) text += labelled("anew", renewed_text(options, record));
   text += labelled("states", states_text(record));
   if (!rig.balls.empty()) text += labelled("rig", rig_text(rig));

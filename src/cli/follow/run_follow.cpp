@@ -24,6 +24,7 @@
 #include "cli/terminal/tables.h"
 #include "common/file_extension.h"
 #include "medial_vk/version.h"
+#include "motion_files/frame_patterns.h"
 #include "motion_files/mesh_motion.h"
 #include "output/atomic_files/atomic_file.h"
 #include "output/motion_files/motion_files.h"
@@ -199,8 +200,15 @@ class FollowRun {
   Status add_frame(const std::string& name, double time, const std::vector<Point>& vertices, bool keeps_vertices) {
     FollowedFrame frame;
     frame.name = name;
+    frame.short_name = options_.frames.empty() ? name : std::filesystem::path(name).stem().string();
     frame.time = time;
+    frame.is_mirrored = is_mirrored(mesh_->prepared(), vertices);
     if (Status status = follower_->describe(frame); !status) return status;
+    if (record_.has_volume && !record_.frames.empty()) {  // the rest pose has one
+      const Result<bool> encloses = encloses_volume(mesh_->prepared(), vertices, threads());
+      if (!encloses) return encloses.error();
+      if (!encloses.value()) frame.forget_solid_volume();
+    }
     if (writes_table(options_)) {
       if (Status status = follower_->measure_distances(vertices, *mesh_, frame); !status) return status;
     }
@@ -305,13 +313,23 @@ class FollowRun {
   std::vector<OutputFile> files_;
 };
 
+/// A pattern without further meshes stands for all of them.
+Result<FollowOptions> with_named_files(const FollowOptions& options) {
+  if (!options.frames.empty() || !is_frame_pattern(options.rest)) return options;
+  const Result<std::vector<std::string>> files = files_of_pattern(options.rest);
+  if (!files) return files.error();
+  return with_files_of_pattern(options, files.value());
+}
+
 }  // namespace
 
 Status run_follow(const std::vector<std::string>& arguments) {
   const Result<FollowOptions> options = parse_follow_options(arguments);
   if (!options) return options.error();
   if (options.value().help) return print_result(follow_help_text());
-  return FollowRun(options.value()).run();
+  const Result<FollowOptions> named = with_named_files(options.value());
+  if (!named) return named.error();
+  return FollowRun(named.value()).run();
 }
 
 }  // namespace medial_vk::cli

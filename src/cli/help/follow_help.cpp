@@ -12,15 +12,18 @@ the volume between solid and balls is measured.
 
 Usage:
   medial-vk follow [options] REST FRAME...   meshes with the same triangles, or
-                                             a pattern in quotes for names:
-                                             walk_%04d.obj, walk_####.obj or
-                                             walk_*.obj
+                                             patterns in quotes for names:
+                                             walk_%04d.obj, walk_####.obj,
+                                             walk_*.obj or walk_[1-9].obj
+  medial-vk follow [options] PATTERN         its first file as REST, and the
+                                             others as frames, in the order of
+                                             the numbers in their names
   medial-vk follow [options] SCENE           a .gltf or .glb with an animation:
                                              skins, shapes or moving nodes
 
 Examples:
   medial-vk follow part.obj bent.obj twisted.obj --count 100 -o part.npz
-  medial-vk follow walk_0000.obj "walk_*.obj" -o walk.csv -o walk.glb
+  medial-vk follow "walk_*.obj" -o walk.csv -o walk.glb
   medial-vk follow dancer.glb --html dancer.html --picture dancer.png
   medial-vk spheres part.obj --count 64          makes part.spheres.csv
   medial-vk follow part.obj bent.obj --balls part.spheres.csv --check
@@ -103,10 +106,12 @@ Other:
                         step
   -h, --help            print this and exit
 
-The first frame that is written is the rest pose. A ball inside that finds no
-place in a frame is lost there, with radius 0, and may return; faces inside the
-solid bound it, too. A cover holds every point whose winding number is not 0; of
-a mesh that is not closed, the surface. Files appear whole or not at all.
+The first frame that is written is the rest pose. No volume is known of a frame
+that is flat, or whose faces cross, lie inside or are turned over. A ball inside
+that finds no place in a frame is lost there, with radius 0, and may return;
+faces inside the solid bound it, too. A cover holds every point whose winding
+number is not 0; of a mesh that is not closed, the surface. Files appear whole
+or not at all.
 
 Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 mesh or frame unreadable
 or invalid, 4 no Vulkan device, 5 out of memory, 6 cannot write, 7 --check

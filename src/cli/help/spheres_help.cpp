@@ -51,11 +51,12 @@ What they guarantee:
                         spheres, radians, between 0 and pi/2 (default 0.6)
 
 Of a mesh that deforms:
-      --frames FILE...  the spheres that, as they follow it, leave least of the
-                        solid uncovered in all frames together, instead of the
-                        best at rest: meshes with the same triangles, a pattern
-                        such as "walk_*.obj", or MESH itself, a .glb with an
-                        animation; with --count, of contract inside
+      --frames [FILE...]  the spheres that, as they follow it, leave least of
+                        the solid uncovered in all frames together, instead of
+                        the best at rest: meshes with the same triangles, or a
+                        pattern such as "walk_*.obj"; without a FILE those of
+                        the animation of MESH, a .gltf or .glb; with --count,
+                        of contract inside
       --animation NAME  of a scene with several: the name, or the number from 1
 
 Robots:

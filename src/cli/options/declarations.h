@@ -35,6 +35,11 @@ class Declarations {
     app_.add_option(name, targets)->type_name(values);
   }
 
+  /// Any number of values, or none: an empty one then.
+  void texts_or_none(const char* name, const char* values, std::vector<std::string>& targets) {
+    app_.add_option(name, targets)->type_name(values)->expected(0, CLI::detail::expected_max_vector_size);
+  }
+
   void flag(const char* name, bool& target) { app_.add_flag(name, target); }
 
   template <class T>

@@ -64,13 +64,16 @@ void declare_follow(CLI::App& app, FollowOptions& options, GivenToFollow& given)
   add.flag("-h,--help", options.help);
 }
 
+Status check_scene_alone(const FollowOptions& options) {
+  if (options.animation.empty() || options.frames.empty()) return {};
+  return usage_error("--animation is of a scene alone; give no further meshes with it");
+}
+
 Status check_follow_inputs(const FollowOptions& options, const GivenToFollow& given) {
   if (options.rest.empty()) return usage_error("give the mesh in the rest pose, and the meshes of the frames");
   const auto streams = std::ranges::count(inputs_of(options), "-");
   if (streams > 1) return usage_error("only one of the meshes and --balls can be standard input");
-  if (!options.animation.empty() && !options.frames.empty()) {
-    return usage_error("--animation is of a scene alone; give no further meshes with it");
-  }
+  if (Status status = check_scene_alone(options); !status) return status;
   if (options.quiet && options.verbose) return usage_error("-q and -v cannot be used together");
   const bool fits = options.balls.empty() && !options.points;
   if (!options.balls.empty() && options.points) return usage_error("--balls and --points cannot be used together");
@@ -153,6 +156,19 @@ std::string usual_output(const std::string& rest) {
 
 }  // namespace
 
+Result<FollowOptions> with_files_of_pattern(FollowOptions options, const std::vector<std::string>& files) {
+  if (files.size() < 2) {
+    return usage_error(
+        fmt::format("'{}' stands for {} alone: a motion needs the rest pose and a frame", options.rest, files.front()));
+  }
+  options.rest = files.front();
+  options.frames.assign(files.begin() + 1, files.end());
+  if (options.has_usual_output) options.outputs = {usual_output(options.rest)};
+  if (Status status = check_scene_alone(options); !status) return status.error();
+  if (Status status = check_follow_outputs(options); !status) return status.error();
+  return options;
+}
+
 std::vector<NamedOutput> outputs_of(const FollowOptions& options) {
   std::vector<NamedOutput> outputs;
   for (const std::string& file : options.outputs) outputs.push_back({"--output", &file});
@@ -215,7 +231,8 @@ Result<FollowOptions> FollowOptionParser::parse(const std::vector<std::string>& 
   if (Status status = take_view(given.view, !options.picture.empty() || !options.html.empty(), options.view); !status) {
     return status.error();
   }
-  if (options.outputs.empty()) options.outputs = {usual_output(options.rest)};
+  options.has_usual_output = options.outputs.empty();
+  if (options.has_usual_output) options.outputs = {usual_output(options.rest)};
   if (Status status = check_follow_outputs(options); !status) return status.error();
   return options;
 }

@@ -23,8 +23,10 @@ constexpr std::size_t kUsualFollowers = 500, kUsualCoverCount = 100;
 
 struct FollowOptions {
   bool help = false;
-  std::string rest;                 ///< The mesh in the rest pose, or a scene with an animation.
-  std::vector<std::string> frames;  ///< Meshes, or one pattern of names; empty: the animation of `rest`.
+  /// The mesh in the rest pose, a scene with an animation, or, without `frames`, a pattern of names: of the rest pose
+  /// and the frames.
+  std::string rest;
+  std::vector<std::string> frames;  ///< Meshes, or patterns of names; empty: those of `rest`.
   std::string animation;            ///< Its name, or its number from 1; empty: the only one.
   double frames_per_second = 30;
 
@@ -41,6 +43,8 @@ struct FollowOptions {
   bool tighten = false;      ///< A cover is divided anew in each frame.
   double grown = 1.25;       ///< A ball of a cover beyond so many times its radius at rest counts as grown.
 
+  /// REST.follow.npz is the only output, because none was named.
+  bool has_usual_output = false;
   std::vector<std::string> outputs;  ///< .npz, .glb or .csv; never empty after parsing; "-": standard output, CSV.
   std::string picture, html, rig;    ///< Empty: none; "-": standard output.
   PictureView view;
@@ -71,6 +75,10 @@ class FollowOptionParser {
   struct Declared;  // keeps CLI11 out of this header
   std::unique_ptr<Declared> declared_;
 };
+
+/// The options with the files of `rest`, if that is a pattern, in its place: the first as the rest pose, the others as
+/// frames. Error: kUsage (options that are about a scene, results that would replace a file).
+Result<FollowOptions> with_files_of_pattern(FollowOptions options, const std::vector<std::string>& files);
 
 /// Every file to be written, with its option.
 std::vector<NamedOutput> outputs_of(const FollowOptions& options);

@@ -57,7 +57,7 @@ void declare(CLI::App& app, SpheresOptions& options, Given& given) {
                                             given.contract);
   add.real("--object-angle", {0, std::numbers::pi / 2, false}, " radians", given.object_angle);
   add.flag("--levels", options.spheres.levels);
-  add.texts("--frames", "files", options.frames);
+  add.texts_or_none("--frames", "files", options.frames);
   add.text("--animation", "name or number", options.animation);
   add.flag("--keep-inner-faces", options.keep_inner_faces);
   add.flag("--collision", given.collision);
@@ -216,10 +216,29 @@ Status check_both(const SpheresOptions& options, const Given& given) {
   return usage_error("--method source: with --contract both only --method best is supported");
 }
 
+/// Without a file, --frames stands for MESH.
+Status complete_frames(SpheresOptions& options) {
+  if (options.frames != std::vector<std::string>{""}) return {};
+  const std::string extension = file_extension(options.input);
+  if (options.input != "-" && extension != ".glb" && extension != ".gltf") {
+    return usage_error(
+        fmt::format("--frames without a file stands for the animation of MESH, and {} is no .gltf or "
+                    ".glb: name the meshes of the frames",
+                    options.input));
+  }
+  options.frames = {options.input};
+  return {};
+}
+
 /// Frames are files, which are read several times; or MESH alone, which stands for its animation.
 Status check_files_of_frames(const SpheresOptions& options) {
   if (frames_are_animation(options)) return {};
   for (const std::string& frame : options.frames) {
+    if (frame.empty()) return usage_error("--frames: the name of a file is empty");
+    if (frame.size() > 1 && frame[0] == '-') {
+      return usage_error(
+          fmt::format("--frames: '{}' begins like an option; a file of this name is ./{}", frame, frame));
+    }
     if (frame == "-") {
       return usage_error("--frames: frames are read several times, so none can be standard input (-)");
     }
@@ -233,7 +252,7 @@ Status check_files_of_frames(const SpheresOptions& options) {
 }
 
 /// Spheres that follow a motion are one set inside one mesh, by number.
-Status check_frames(const SpheresOptions& options) {
+Status check_frames(SpheresOptions& options) {
   if (options.frames.empty()) {
     if (options.animation.empty()) return {};
     return usage_error("--animation is about a motion: use it with --frames");
@@ -242,6 +261,7 @@ Status check_frames(const SpheresOptions& options) {
   if (file_extension(options.input) == ".urdf") {
     return usage_error("--frames are those of one mesh; the links of a robot do not deform");
   }
+  if (Status status = complete_frames(options); !status) return status;
   const SphereFitOptions& fit = options.spheres;
   if (options.both || fit.contract != SphereContract::kInside) {
     return usage_error("--frames: only spheres of --contract inside follow a motion");
@@ -262,7 +282,7 @@ Status check_frames(const SpheresOptions& options) {
   return check_files_of_frames(options);
 }
 
-Status check_combinations(const SpheresOptions& options, const Given& given) {
+Status check_combinations(SpheresOptions& options, const Given& given) {
   if (Status status = check_both(options, given); !status) return status;
   if (Status status = check_frames(options); !status) return status;
   if (options.check && options.spheres.contract == SphereContract::kBalanced) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "medial_vk/prepare.h"
 #include "motion_files/frame_patterns.h"
 
 namespace medial_vk::cli {
@@ -81,6 +82,14 @@ Status check_size(std::span<const Point> vertices, const std::string& name) {
 bool encloses_volume(const MeshReport& report) {
   return report.closed && report.intersecting_faces == 0 && report.intersections_known && report.faces_within == 0 &&
          report.faces_without == 0;
+}
+
+Result<bool> encloses_volume(const PreparedMesh& rest, std::span<const Point> vertices, unsigned threads) {
+  const PrepareOptions options = {.keep_inner_faces = true, .threads = threads, .keep_outer_faces = true};
+  const Result<PreparedMesh> frame = prepare_mesh(moved(rest, vertices).mesh, options);
+  if (frame) return encloses_volume(frame.value().report) && frame.value().report.reoriented_faces == 0;
+  if (frame.error().code == ErrorCode::kOutOfMemory) return frame.error();
+  return false;
 }
 
 bool is_mirrored(const PreparedMesh& rest, std::span<const Point> vertices) {

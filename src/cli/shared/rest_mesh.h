@@ -44,6 +44,10 @@ Status check_size(std::span<const Point> vertices, const std::string& name);
 /// Whether the signed volume of a mesh is the volume of its solid: it is closed, and no faces cross or lie inside.
 bool encloses_volume(const MeshReport& report);
 
+/// The same of a frame, whose signed volume may be negative: its faces do not cross, none lies inside, and none is
+/// turned over beside others. Error: kOutOfMemory.
+Result<bool> encloses_volume(const PreparedMesh& rest, std::span<const Point> vertices, unsigned threads);
+
 /// Whether the signed volume of a closed mesh is negative in a frame.
 bool is_mirrored(const PreparedMesh& rest, std::span<const Point> vertices);
 

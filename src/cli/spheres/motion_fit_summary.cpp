@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "base/quoted.h"
 #include "cli/terminal/numbers.h"
 #include "cli/terminal/tables.h"
@@ -9,12 +11,12 @@
 namespace medial_vk::cli {
 namespace {
 
-/// At rest, on average and at most; frames without a volume are left out, and counted.
+/// At rest, on average and at most; frames whose volume is not known are left out, and counted.
 std::string shares_text(std::span<const MeasuredFrame> frames) {
   const MeasuredFrame* worst = &frames.front();
   std::uint64_t without = 0;
   for (const MeasuredFrame& frame : frames) {
-    if (!(frame.measures.solid_volume > 0)) {
+    if (std::isnan(frame.measures.solid_volume)) {
       ++without;
     } else if (frame.uncovered_share() > worst->uncovered_share()) {
       worst = &frame;
@@ -23,7 +25,7 @@ std::string shares_text(std::span<const MeasuredFrame> frames) {
   std::string text = fmt::format("{:.2f} % of the solid on average, {:.2f} % at most ({}), {:.2f} % at rest",
                                  100 * mean_uncovered(frames), 100 * worst->uncovered_share(),
                                  medial_vk::quoted(worst->name), 100 * frames.front().uncovered_share());
-  if (without > 0) text += "; " + counted(without, "frame has no volume", "frames have no volume");
+  if (without > 0) text += "; " + counted(without, "frame has no known volume", "frames have no known volume");
   return text;
 }
 
@@ -33,7 +35,7 @@ double mean_uncovered(std::span<const MeasuredFrame> frames) {
   double sum = 0;
   std::size_t count = 0;
   for (const MeasuredFrame& frame : frames) {
-    if (!(frame.measures.solid_volume > 0)) continue;
+    if (std::isnan(frame.measures.solid_volume)) continue;
     sum += frame.uncovered_share();
     ++count;
   }

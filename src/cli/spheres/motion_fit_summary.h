@@ -24,7 +24,7 @@ struct MeasuredFrame {
   double uncovered_share() const { return measures.uncovered() / measures.solid_volume; }
 };
 
-/// The mean of the uncovered shares of frames with a volume; the rest pose has one.
+/// The mean of the uncovered shares of frames whose volume is known, as that of the rest pose is.
 double mean_uncovered(std::span<const MeasuredFrame> frames);
 
 /// Before the work: the mesh, its frames and the device, if there is one.

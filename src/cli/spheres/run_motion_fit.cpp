@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -196,6 +197,7 @@ class MotionFitRun {
     }
     for (const std::uint32_t candidate : best->chosen) result_.push_back(candidates_[candidate]);
     if (Status status = measure("chosen", result_, measures_); !status) return status;
+    compare_same_frames();
     is_of_rest_ = mean_uncovered(of_rest_) <= mean_uncovered(measures_);
     if (is_of_rest_) {
       result_ = plain_;
@@ -205,7 +207,16 @@ class MotionFitRun {
     return {};
   }
 
-  /// Without steps, so that no ball depends on the others. Calls seen(name, follower) at rest and in each frame.
+  /// Balls of one set may show that the triangles of a frame do not give its volume, and those of the other not.
+  void compare_same_frames() {
+    for (std::size_t i = 0; i < measures_.size(); ++i) {
+      double &a = measures_[i].measures.solid_volume, &b = of_rest_[i].measures.solid_volume;
+      if (std::isnan(a) || std::isnan(b)) a = b = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+
+  /// Without steps, so that no ball depends on the others. Calls seen(name, vertices, follower) at rest, where there
+  /// are no vertices, and in each frame.
   template <class Seen>
   Status follow(const char* stage, const std::vector<Ball>& balls, const Seen& seen) {
     FollowerOptions follower_options;
@@ -214,9 +225,9 @@ class MotionFitRun {
     Result<Follower> follower = Follower::create(*mesh_, balls, follower_options);
     if (!follower) return follower.error();
     const std::uint64_t count = motion_->frame_count();
-    if (Status status = seen("rest", follower.value()); !status) return status;
     MotionFrame frame;
     std::vector<Point> vertices;
+    if (Status status = seen("rest", vertices, follower.value()); !status) return status;
     for (std::uint64_t i = 0; i < count; ++i) {
       if (interrupted()) return stopped();
       shared_.progress.update(stage, static_cast<double>(i) / static_cast<double>(count));
@@ -225,26 +236,32 @@ class MotionFitRun {
       if (Status status = follower.value().update(vertices); !status) {
         return Error{status.error().code, frame.name + ": " + status.error().message};
       }
-      if (Status status = seen(frame.name, follower.value()); !status) return status;
+      if (Status status = seen(frame.name, vertices, follower.value()); !status) return status;
     }
     shared_.progress.clear();
     return {};
   }
 
   Status measure(const char* stage, const std::vector<Ball>& balls, std::vector<MeasuredFrame>& measured) {
-    return follow(stage, balls, [&](const std::string& name, const Follower& follower) -> Status {
+    const auto seen = [&](const std::string& name, const std::vector<Point>& vertices,
+                          const Follower& follower) -> Status {
       const Result<FollowMeasures> measures = follower.measure();
       if (!measures) return measures.error();
       measured.push_back({name, measures.value()});
+      if (vertices.empty()) return {};
+      const Result<bool> encloses = encloses_volume(mesh_->prepared(), vertices, threads());
+      if (!encloses) return encloses.error();
+      if (!encloses.value()) measured.back().measures.solid_volume = std::numeric_limits<double>::quiet_NaN();
       return {};
-    });
+    };
+    return follow(stage, balls, seen);
   }
 
   /// Where all candidates are in some frames, the first and the last among them.
   Status follow_candidates() {
     const std::size_t count = of_rest_.size(), most = std::min(count, kMostChoiceFrames);
     std::size_t number = 0;
-    return follow("follow", candidates_, [&](const std::string&, const Follower& follower) -> Status {
+    const auto seen = [&](const std::string&, const std::vector<Point>&, const Follower& follower) -> Status {
       const std::size_t frame = number++;
       const std::size_t next = choice_frames_.size();
       if (next >= most || frame < next * (count - 1) / std::max<std::size_t>(most - 1, 1)) return {};
@@ -252,7 +269,8 @@ class MotionFitRun {
       if (!(volume > 0)) return {};
       choice_frames_.push_back({{follower.balls().begin(), follower.balls().end()}, 1 / volume});
       return {};
-    });
+    };
+    return follow("follow", candidates_, seen);
   }
 
   Status make_file() {

@@ -24,8 +24,8 @@ std::string inside_numbers(const MotionRecord& record, const FollowedFrame& fram
   const FollowMeasures& m = frame.measures;
   const std::string gap = frame.gap ? fmt::format("{},{}", frame.gap->lower, frame.gap->upper) : ",";
   if (!record.has_volume) return fmt::format(",{},,{},{}", m.ball_volume, m.outside_bound, gap);
-  return fmt::format("{},{},{},{},{}", m.solid_volume, m.ball_volume, number_or_nothing(frame.uncovered_percent()),
-                     m.outside_bound, gap);
+  return fmt::format("{},{},{},{},{}", number_or_nothing(m.solid_volume), m.ball_volume,
+                     number_or_nothing(frame.uncovered_percent()), m.outside_bound, gap);
 }
 
 std::string cover_numbers(const MotionRecord& record, const CoveredFrame& cover) {
@@ -33,8 +33,8 @@ std::string cover_numbers(const MotionRecord& record, const CoveredFrame& cover)
   const std::string reach = cover.reach_out_bound ? fmt::format("{}", *cover.reach_out_bound) : std::string();
   const char* const proved = cover.proved == CoverState::kSolid ? "solid" : "surface";
   if (!record.has_volume) return fmt::format(",{},,{},{}", m.ball_volume, reach, proved);
-  return fmt::format("{},{},{},{},{}", m.solid_volume, m.ball_volume, number_or_nothing(cover.added_percent()), reach,
-                     proved);
+  return fmt::format("{},{},{},{},{}", number_or_nothing(m.solid_volume), m.ball_volume,
+                     number_or_nothing(cover.added_percent()), reach, proved);
 }
 
 }  // namespace

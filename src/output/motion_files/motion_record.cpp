@@ -13,13 +13,18 @@ constexpr std::array kStatesOfCovers = {"steady", "grown", "unused"};
 }  // namespace
 
 double CoveredFrame::added_percent() const {
-  if (!(measures.solid_volume > 0)) return std::numeric_limits<double>::quiet_NaN();
+  // Balls that are proved to cover the surface alone may be smaller than the solid.
+  if (!(measures.solid_volume > 0 && measures.added() >= 0)) return std::numeric_limits<double>::quiet_NaN();
   return 100 * measures.added() / measures.solid_volume;
 }
 
 double FollowedFrame::uncovered_percent() const {
   if (!(measures.solid_volume > 0)) return std::numeric_limits<double>::quiet_NaN();
   return 100 * measures.uncovered() / measures.solid_volume;
+}
+
+void FollowedFrame::forget_solid_volume() {
+  (cover ? cover->measures.solid_volume : measures.solid_volume) = std::numeric_limits<double>::quiet_NaN();
 }
 
 std::size_t FollowedFrame::renewed() const {

@@ -31,13 +31,14 @@ struct CoveredFrame {
   CoverFollowMeasures measures;
   std::optional<double> reach_out_bound;  ///< No ball reaches out of the solid by more; empty: not measured.
 
-  /// Per cent of the solid's volume: that of the balls outside of it; NaN without a volume.
+  /// Per cent of the solid's volume: that of the balls outside of it; NaN if that is not known.
   double added_percent() const;
 };
 
 /// Balls and numbers of one frame, in mesh units.
 struct FollowedFrame {
   std::string name;                   ///< "rest", a file, or the time in seconds.
+  std::string short_name;             ///< The same, but a file without its folder and its extension.
   double time = 0;                    ///< Seconds since the rest pose.
   std::vector<Ball> balls;            ///< Radius 0: lost in this frame, or of a cover that does without it.
   std::optional<CoveredFrame> cover;  ///< With MotionRecord::covers, instead of the next four.
@@ -45,11 +46,17 @@ struct FollowedFrame {
   std::vector<FollowOrigin> origins;  ///< Empty unless balls may be chosen anew (MotionRecord::renews).
   FollowMeasures measures;
   std::optional<Bounds> gap;  ///< The greatest distance from points of the boundary to the balls.
+  bool is_mirrored = false;   ///< The mesh is closed, and its signed volume is negative.
   /// Of the vertices of the prepared mesh, if a picture or a page shows the frame; else empty.
   std::vector<std::array<float, 3>> vertices;
 
-  /// Per cent of the solid's volume that no ball holds (FollowMeasures::uncovered()); NaN without a volume.
+  /// Per cent of the solid's volume that no ball holds (FollowMeasures::uncovered()); NaN if the volume is not known.
   double uncovered_percent() const;
+  /// The same, or of a cover CoveredFrame::added_percent().
+  double error_percent() const { return cover ? cover->added_percent() : uncovered_percent(); }
+  /// The volume of the solid; NaN if it is not known.
+  double solid_volume() const { return cover ? cover->measures.solid_volume : measures.solid_volume; }
+  void forget_solid_volume();
   /// The number of balls that were chosen anew in this frame.
   std::size_t renewed() const;
 };
@@ -60,8 +67,8 @@ struct MotionRecord {
   std::string rule;     ///< "tangent" or "published", of balls inside; "cover".
   bool covers = false;  ///< The balls cover each frame.
   double frames_per_second = 0;
-  /// The mesh at rest is closed, and no faces cross or lie inside: its signed volume is that of the solid, also in each
-  /// frame in which no faces come to cross. Otherwise no volume is written.
+  /// The mesh at rest is closed, and no faces cross or lie inside: its signed volume is that of the solid. Otherwise no
+  /// volume of a solid is written, nor of a frame whose solid_volume() is NaN.
   bool has_volume = false;
   bool renews = false;                ///< Balls may be chosen anew in a frame: files say where.
   std::vector<Triangle> triangles;    ///< Of the prepared mesh.

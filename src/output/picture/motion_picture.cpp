@@ -28,8 +28,8 @@ std::vector<const FollowedFrame*> shown_frames(const MotionRecord& record) {
   return shown;
 }
 
-/// The corners of the box around all shown frames and their balls, which may reach out: vertices of no triangle, which
-/// every cell has, so that the camera stays where it is.
+/// The corners of the box around all shown frames and their balls, which may reach out. Every cell has them, so that
+/// the camera stays where it is.
 std::vector<Point> common_corners(std::span<const FollowedFrame* const> frames) {
   const std::array<float, 3>& first = frames.front()->vertices.front();
   Point lower = {first[0], first[1], first[2]}, upper = lower;
@@ -63,11 +63,13 @@ int colour_of_state(const MotionRecord& record, std::size_t state) {
 
 std::string title_of(const MotionRecord& record, const FollowedFrame& frame) {
   constexpr std::size_t kMost = 28;
-  std::string name = frame.name;
+  std::string name = frame.short_name;
   if (name.size() > kMost) name = ".." + name.substr(name.size() - kMost + 2);
-  const double percent = frame.cover ? frame.cover->added_percent() : frame.uncovered_percent();
-  if (!record.has_volume || !std::isfinite(percent)) return name;
-  return fmt::format("{}: {:.2f} per cent {}", name, percent, frame.cover ? "added" : "uncovered");
+  if (!record.has_volume) return name;
+  const char* const word = frame.cover ? "added" : "uncovered";
+  const double percent = frame.error_percent();
+  if (!std::isfinite(percent)) return fmt::format("{}: {} % not known", name, word);
+  return fmt::format("{}: {:.2f} % {}", name, percent, word);
 }
 
 Picture draw_cell(const MotionRecord& record, const FollowedFrame& frame, const std::vector<Point>& corners,
@@ -75,7 +77,12 @@ Picture draw_cell(const MotionRecord& record, const FollowedFrame& frame, const 
   Mesh mesh;
   mesh.triangles = record.triangles;
   for (const auto& v : frame.vertices) mesh.vertices.push_back({v[0], v[1], v[2]});
-  mesh.vertices.insert(mesh.vertices.end(), corners.begin(), corners.end());
+  for (const Point& corner : corners) {
+    // The camera is fitted to triangles; one without an area is not seen.
+    const auto last = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.push_back(corner);
+    mesh.triangles.push_back({last, last, last});
+  }
   const std::vector<std::uint8_t> states = state_numbers(frame);
   std::vector<MedialSphere> marks;
   for (std::size_t i = 0; i < frame.balls.size(); ++i) {
@@ -105,7 +112,7 @@ Picture draw_cell(const MotionRecord& record, const FollowedFrame& frame, const 
   cell.height = kCellHeight;
   cell.rgb.assign(std::size_t{cell.width} * cell.height * 3, 255);
   picture::draw_panel(scene, {0, cell.width, false, true}, view, cell);
-  picture::draw_legend(scene, cell);
+  picture::draw_legend(scene, cell, picture::LegendCorner::kLowerLeft);
   return cell;
 }
 

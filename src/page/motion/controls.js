@@ -73,7 +73,7 @@ export class MotionText {
       + 'to frame.';
     const {name: error, sentence} = errorOf(this.motion);
     byId('curve-meaning').textContent = sentence;
-    byId('no-volume').textContent = `The mesh is not closed, so the ${error} volume is not known.`;
+    byId('no-volume').textContent = `The mesh is not closed, or its faces cross, so the ${error} volume is not known.`;
     byId('no-volume').hidden = closed;
     rows(byId('states'), statesOf(this.motion).map(({name: state, what}) => [state, what]));
   }

@@ -23,6 +23,7 @@ TEST(FollowOptions, Defaults) {
   expected.rest = "models/rest.obj";
   expected.frames = {"a.obj", "b.obj"};
   expected.outputs = {"rest.follow.npz"};
+  expected.has_usual_output = true;
   expected.follower.steps = 1;
   EXPECT_EQ(parsed_follow({"models/rest.obj", "a.obj", "b.obj"}), expected);
   EXPECT_EQ(parsed_follow({"dancer.glb"}).outputs, std::vector<std::string>{"dancer.follow.npz"});
@@ -156,6 +157,24 @@ TEST(FollowOptions, Files) {
   for (const char* file : {"a.glb", "b.gltf"}) EXPECT_TRUE(rig_has_nodes(parsed_follow({"r.glb", "--rig", file})));
   EXPECT_THAT(follow_message({"r.glb", "--rig", "r.glb"}), HasSubstr("would overwrite the input"));
   EXPECT_THAT(follow_message({"r.obj", "a.obj", "-o", "-", "--picture", "-"}), HasSubstr("the same file"));
+}
+
+TEST(FollowOptions, APatternAloneIsTheRestPoseAndTheFrames) {
+  const std::vector<std::string> files = {"a/w_1.obj", "a/w_2.obj", "a/w_3.obj"};
+  const auto named = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), "a/w_*.obj");
+    return with_files_of_pattern(parsed_follow(more), files);
+  };
+  const FollowOptions usual = named({}).value();
+  EXPECT_EQ(usual.rest, "a/w_1.obj");
+  EXPECT_EQ(usual.frames, (std::vector<std::string>{"a/w_2.obj", "a/w_3.obj"}));
+  EXPECT_EQ(usual.outputs, std::vector<std::string>{"w_1.follow.npz"});
+  EXPECT_EQ(named({"-o", "b.npz"}).value().outputs, std::vector<std::string>{"b.npz"});
+  const auto message = [&](const std::vector<std::string>& more) { return message_of(named(more), more); };
+  EXPECT_THAT(message({"--animation", "x"}), HasSubstr("--animation is of a scene alone"));
+  EXPECT_THAT(message({"--rig", "a.json"}), HasSubstr("--rig is about the joints of an animation"));
+  EXPECT_EQ(message_of(with_files_of_pattern(parsed_follow({"w_*.obj"}), {"w_1.obj"}), {}),
+            "'w_*.obj' stands for w_1.obj alone: a motion needs the rest pose and a frame");
 }
 
 TEST(FollowOptions, Ranges) {

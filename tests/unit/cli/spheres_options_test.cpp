@@ -163,6 +163,35 @@ TEST(SpheresOptions, FramesAreFilesOrMeshAlone) {
             "no MESH or ROBOT.urdf given (--frames takes all files that follow it: give MESH first)");
 }
 
+TEST(SpheresOptions, FramesWithoutAFileAreTheAnimation) {
+  using Words = std::vector<std::string>;
+  for (const Words& words :
+       {Words{"a.glb", "--count", "9", "--frames"}, Words{"a.GLTF", "--frames", "--count", "9"},
+        Words{"--frames", "--count", "9", "a.glb"}, Words{"a.glb", "--count", "9", "--frames="},
+        Words{"a.glb", "--count", "9", "--frames", "-q"}, Words{"-", "--frames", "--count", "9"}}) {
+    const SpheresOptions options = parsed_spheres(words);
+    EXPECT_EQ(options.frames, Words{options.input});
+    EXPECT_TRUE(frames_are_animation(options));
+  }
+  EXPECT_TRUE(parsed_spheres({"a.glb", "--count", "9", "--frames", "-q"}).quiet) << "an option, and no file";
+  EXPECT_THAT(spheres_message({"a.obj", "--count", "9", "--frames"}), HasSubstr("a.obj is no .gltf or .glb"));
+  EXPECT_THAT(spheres_message({"a.urdf", "--total", "9", "--frames"}), HasSubstr("do not deform"));
+  EXPECT_THAT(spheres_message({"--count", "9", "--frames"}), HasSubstr("no MESH or ROBOT.urdf given"));
+}
+
+TEST(SpheresOptions, FramesAreNoOptions) {
+  const auto message = [](std::vector<std::string> frames) {
+    frames.insert(frames.begin(), {"a.glb", "--count", "9"});
+    return spheres_message(frames);
+  };
+  EXPECT_THAT(message({"--frames", "-x"}), HasSubstr("unknown option -x"));
+  EXPECT_THAT(message({"--frames", "b.obj", "--quite"}), HasSubstr("did you mean --quiet?"));
+  EXPECT_THAT(message({"--frames", "-5"}), HasSubstr("'-5' begins like an option; a file of this name is ./-5"));
+  EXPECT_THAT(message({"--frames=-b.obj"}), HasSubstr("'-b.obj' begins like an option"));
+  EXPECT_THAT(message({"--frames", "b.obj", ""}), HasSubstr("the name of a file is empty"));
+  EXPECT_EQ(parsed_spheres({"a.obj", "--count", "9", "--frames", "./-b.obj"}).frames.front(), "./-b.obj");
+}
+
 TEST(SpheresOptions, PackagesAddUp) {
   const SpheresOptions options = parsed_spheres({"a.urdf", "--total", "9", "--package", "a=b", "--package", "c=d"});
   EXPECT_EQ(options.packages, (std::vector<std::string>{"a=b", "c=d"}));

@@ -21,8 +21,9 @@ TEST(CarriedBalls, CentresFollowTheAffineMapOfLeastSquares) {
   const Ball around = {{0.6, 0.3, 0.4}, 2};
   const std::vector<Ball> balls = {around};
   const CarriedBalls carried(surface, divide_boundary(surface.vertices(), surface.triangles(), balls, 1), balls);
+  HeldCorners memory;
   constexpr double kEnlarged = 1e-8;  // Q by 1e-9 of its trace, which is below 2
-  EXPECT_LE(length(carried.ball(surface, 0).centre - around.centre), kEnlarged);
+  EXPECT_LE(length(carried.ball(surface, 0, memory).centre - around.centre), kEnlarged);
 
   const auto vector_of = [](const Point& p) { return Eigen::Vector3d(p[0], p[1], p[2]); };
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -46,7 +47,7 @@ TEST(CarriedBalls, CentresFollowTheAffineMapOfLeastSquares) {
   CoverFrame stretched(cube.view().vertices.begin(), cube.view().vertices.end());
   for (Point& p : stretched) p = {2 * p[0] + 100, p[1], p[2]};
   ASSERT_TRUE(surface.move(stretched, 1).ok());
-  const Ball moved = carried.ball(surface, 0);
+  const Ball moved = carried.ball(surface, 0, memory);
   EXPECT_LE((vector_of(moved.centre) - expected).norm(), kEnlarged);
   for (const Point& p : stretched) EXPECT_LE(length(p - moved.centre), moved.radius);
 }

@@ -231,5 +231,29 @@ TEST(CoverFollower, MeasuresAreThoseOfTheFrame) {
   EXPECT_GT(measures.added(), 0);
 }
 
+// Where parts overlap, they count twice; the balls that cover both have less volume than that.
+TEST(CoverFollower, TheVolumeOfOverlappingPartsIsNotKnown) {
+  Mesh two = test::make_sphere(1, 300);
+  test::append(two, test::moved(test::make_sphere(1, 300), {3, 0, 0}));
+  CoverExample example(std::move(two), 2);
+  example.balls = {{{0, 0, 0}, 1.01}, {{3, 0, 0}, 1.01}};
+  CoverFollower follower = example.follower();
+  const double at_rest = follower.measure().value().solid_volume;
+  EXPECT_NEAR(at_rest, 2 * test::signed_volume(test::make_sphere(1, 300)), 1e-12);
+  CoverFrame frame = example.rest();
+  for (Point& p : frame) p[0] = p[0] > 1.5 ? p[0] - 2.75 : p[0];
+  ASSERT_TRUE(follower.update(frame).ok());
+  EXPECT_EQ(follower.state(), CoverState::kSolid);
+  EXPECT_TRUE(std::isnan(follower.measure().value().solid_volume));
+  EXPECT_TRUE(std::isnan(follower.measure().value().added()));
+  for (Point& p : frame) p = {-p[0], p[1], 0.5 * p[0] + p[1]};
+  ASSERT_TRUE(follower.update(frame).ok());
+  EXPECT_TRUE(std::isnan(follower.measure().value().solid_volume)) << "a flat frame";
+  frame = example.rest();
+  for (Point& p : frame) p[0] = -p[0];
+  ASSERT_TRUE(follower.update(frame).ok());
+  EXPECT_NEAR(follower.measure().value().solid_volume, at_rest, 1e-12) << "a mirrored frame";
+}
+
 }  // namespace
 }  // namespace medial_vk

@@ -80,7 +80,16 @@ TEST_F(FramePatterns, WildcardsAreInNaturalOrder) {
   make({"w10.obj", "w9.obj", "w1.obj", "w1.ply", ".w2.obj", "w.obj", "w[1].obj"});
   EXPECT_THAT(names("w?.obj"), ElementsAre("w1.obj", "w9.obj"));
   EXPECT_THAT(names("w*.obj"), ElementsAre("w.obj", "w1.obj", "w9.obj", "w10.obj", "w[1].obj"));
+  EXPECT_THAT(names("w[0-9].obj"), ElementsAre("w1.obj", "w9.obj"));
+  EXPECT_THAT(names("w[!1].obj"), ElementsAre("w9.obj"));
+  EXPECT_THAT(names("w[1-9]*.obj"), ElementsAre("w1.obj", "w9.obj", "w10.obj"));
   message("*2.obj", ErrorCode::kInvalidMesh);  // .w2.obj is hidden, as in a shell
+}
+
+TEST_F(FramePatterns, BracketsBesideANumberAreAPartOfTheName) {
+  make({"w[1]_1.obj", "w[1]_2.obj", "w1_1.obj"});
+  EXPECT_THAT(names("w[1]_%d.obj"), ElementsAre("w[1]_1.obj", "w[1]_2.obj"));
+  EXPECT_THAT(names("w[1]_#.obj"), ElementsAre("w[1]_1.obj", "w[1]_2.obj"));
 }
 
 TEST_F(FramePatterns, NoFileIsAnError) {
@@ -103,6 +112,8 @@ TEST_F(FramePatterns, AFileOfJustThisNameIsNoPattern) {
   EXPECT_TRUE(is_frame_pattern((folder_ / "a#2.obj").string()));
   EXPECT_TRUE(is_frame_pattern("walk_%04d.obj"));
   EXPECT_TRUE(is_frame_pattern("a/walk_*.obj"));
+  EXPECT_TRUE(is_frame_pattern("a/walk_[1-3].obj"));
+  EXPECT_FALSE(is_frame_pattern("a[1]/walk_1.obj"));
   EXPECT_FALSE(is_frame_pattern("walk_1.obj"));
   EXPECT_FALSE(is_frame_pattern("#1/walk_1.obj"));
 }

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "unit/output/motion_example.h"
 
 namespace medial_vk {
@@ -20,6 +22,20 @@ long drawn_pixels(const Picture& sheet, std::uint32_t column, std::uint32_t row)
   return drawn;
 }
 
+/// From the leftmost dark pixel of a cell to the rightmost one, above its legend.
+double outlined_width(const Picture& sheet, std::uint32_t column, std::uint32_t row) {
+  std::uint32_t left = 480, right = 0;
+  for (std::uint32_t y = 400 * row; y < 400 * row + 320; ++y) {
+    for (std::uint32_t x = 0; x < 480; ++x) {
+      const std::uint8_t* rgb = &sheet.rgb[(std::size_t{y} * sheet.width + 480 * column + x) * 3];
+      if (rgb[0] + rgb[1] + rgb[2] > 3 * 190) continue;
+      left = std::min(left, x);
+      right = std::max(right, x);
+    }
+  }
+  return static_cast<double>(right) - left;
+}
+
 TEST(MotionPicture, ACellPerFrameInTheSameView) {
   const MotionRecord record = test::motion_example();
   const Picture sheet = draw_motion(record, PictureView());
@@ -28,7 +44,8 @@ TEST(MotionPicture, ACellPerFrameInTheSameView) {
   ASSERT_EQ(sheet.rgb.size(), std::size_t{960} * 800 * 3);
   const long rest = drawn_pixels(sheet, 0, 0), last = drawn_pixels(sheet, 0, 1);
   EXPECT_GT(rest, 1000);
-  EXPECT_GT(last, rest) << "the cube grows, and the camera stays";
+  EXPECT_GT(last, rest);
+  EXPECT_NEAR(outlined_width(sheet, 0, 1) / outlined_width(sheet, 0, 0), 1.25, 0.08) << "but for the perspective";
   EXPECT_EQ(drawn_pixels(sheet, 1, 1), 0) << "there is no fourth frame";
 }
 

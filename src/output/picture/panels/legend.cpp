@@ -84,7 +84,7 @@ std::uint32_t swatches_width(const Scene& scene, const Pen& pen) {
 
 }  // namespace
 
-void draw_legend(const Scene& scene, Picture& picture) {
+void draw_legend(const Scene& scene, Picture& picture, LegendCorner corner) {
   Pen pen(picture);
   const bool has_bar = scene.legend.swatches.empty();
   const std::uint32_t margin = 16 * pen.scale();
@@ -93,7 +93,7 @@ void draw_legend(const Scene& scene, Picture& picture) {
   const std::uint32_t lines = scene.legend.note.empty() ? 2 : 3;
   const std::uint32_t height = lines * pen.line() + 10 * pen.scale();
   if (picture.width < width + 2 * margin || picture.height < height + 2 * margin) return;  // no room
-  const std::uint32_t left = picture.width - margin - width;
+  const std::uint32_t left = corner == LegendCorner::kLowerLeft ? margin : picture.width - margin - width;
   const std::uint32_t top = picture.height - margin / 2 - height;
   pen.write(left, top, scene.legend.title);
   if (has_bar) {

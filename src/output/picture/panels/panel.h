@@ -53,7 +53,7 @@ constexpr std::uint64_t kCpuSamplesAtOnce = 1u << 23;
 void draw_panel(const Scene& scene, const Panel& panel, const PictureView& view, Picture& picture,
                 std::uint64_t samples_at_once = kCpuSamplesAtOnce);
 
-/// Draws into the lower right corner.
-void draw_legend(const Scene& scene, Picture& picture);
+enum class LegendCorner : std::uint8_t { kLowerRight, kLowerLeft };
+void draw_legend(const Scene& scene, Picture& picture, LegendCorner corner = LegendCorner::kLowerRight);
 
 }  // namespace medial_vk::picture
