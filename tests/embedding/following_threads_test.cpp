@@ -82,6 +82,7 @@ BallsOfFrames follow_on_threads(const Moving& moving, std::size_t threads, const
     }
   };
   std::vector<std::thread> running;
+  running.reserve(threads);
   for (std::size_t t = 0; t < threads; ++t) running.emplace_back(work);
   for (std::thread& thread : running) thread.join();
   EXPECT_EQ(failures, 0u);

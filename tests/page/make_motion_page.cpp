@@ -175,7 +175,7 @@ MotionRecord follow(const IndexedMesh& mesh, const Arguments& given) {
     const double turn = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(frames);
     const std::vector<Point> vertices = test::moved_vertices(rest, motion, 0.5 - 0.5 * std::cos(turn));
     FollowedFrame frame = move(vertices);
-    frame.name = i == 0 ? "rest" : "frame " + std::to_string(i);
+    frame.name = frame.short_name = i == 0 ? "rest" : "frame " + std::to_string(i);
     frame.time = static_cast<double>(i) / std::max(record.frames_per_second, 1.0);
     if (given.contains("gap")) frame.gap = gap_of(vertices, view.triangles, frame.balls);
     if (every > 0 && i % every == 0) {

@@ -33,7 +33,7 @@ NumbersOfPage cover_numbers(const CoveredFrame& cover, const MotionRecord& recor
 }
 
 NumbersOfPage numbers_of(const FollowedFrame& frame, const MotionRecord& record) {
-  NumbersOfPage numbers = {{"name", frame.name}, {"time", number_or_null(frame.time)}};
+  NumbersOfPage numbers = {{"name", frame.short_name}, {"time", number_or_null(frame.time)}};
   numbers.update(frame.cover ? cover_numbers(*frame.cover, record) : inside_numbers(frame, record));
   const std::vector<std::size_t> counts = state_counts(record, frame);
   for (std::size_t i = 0; i < counts.size(); ++i) numbers[state_names(record)[i]] = counts[i];

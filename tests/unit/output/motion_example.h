@@ -18,7 +18,7 @@ inline MotionRecord motion_example() {
   record.triangles = cube.triangles;
   const auto frame = [&](const char* name, double time, double size) {
     FollowedFrame made;
-    made.name = name;
+    made.name = made.short_name = name;
     made.time = time;
     for (const Point& p : cube.vertices) {
       made.vertices.push_back(

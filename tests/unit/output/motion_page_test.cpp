@@ -188,7 +188,8 @@ class MotionPageBytes : public testing::Test {
     record_.triangles = {{0, 1, 2}};
     for (int i = 0; i < 3; ++i) {
       FollowedFrame frame;
-      frame.name = "frame " + std::to_string(i);
+      frame.name = "folder/frame.obj";
+      frame.short_name = "frame " + std::to_string(i);
       frame.time = 0.04 * i;
       frame.balls = {{{0.5, 0.25, 0}, 0.125}, {{0.25, 0.5, 0}, i == 1 ? 0 : 0.0625}};
       frame.states = {FollowState::kFlat, i == 1 ? FollowState::kLost : FollowState::kShrunk};
@@ -292,7 +293,7 @@ TEST_F(MotionPageBytes, WithoutAnyMeshAreNumbersAlone) {
 
 TEST_F(MotionPageBytes, NoNameCanBreakOut) {
   record_.name = "a</title><script>alert(1)</script><!--\xff.obj";
-  record_.frames[1].name = "b</script><script>alert(2)</script>\xfe";
+  record_.frames[1].short_name = "b</script><script>alert(2)</script>\xfe";
   const std::string text = encode_motion_page(record_);
   EXPECT_THAT(text, HasSubstr("<title>a&lt;/title>&lt;script>alert(1)"));
   for (const char* bad : {"<script>alert", "alert(2)</script>", "a</title>", "<!--\xff", "\xff", "\xfe"}) {
