@@ -129,7 +129,7 @@ TEST_F(FollowCommand, FromRestAFrameDoesNotDependOnThoseBefore) {
   EXPECT_EQ(frame_line(both.out, 2)[4], frame_line(last.out, 1)[4]) << "the volume of the balls";
 }
 
-TEST_F(FollowCommand, BallsAreChosenAnewOnRequest) {
+TEST_F(FollowCommand, BallsAreChosenAnew) {
   test::write_file(path("near.csv"), "x,y,z,radius\n0.5,0.5,0.5,0.5\n0.6,0.5,0.5,0.5\n0.7,0.5,0.5,0.5\n");
   const std::vector<std::string> plain = {"box_0.obj", "box_1.obj", "box_2.obj", "--balls", "near.csv", "--steps", "0"};
   const auto follow_near = [&](std::vector<std::string> more) {
@@ -141,7 +141,7 @@ TEST_F(FollowCommand, BallsAreChosenAnewOnRequest) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.err, HasSubstr("times a ball, in "));
   EXPECT_THAT(result.err, HasSubstr("at most 1 in one; beyond 1 times what is uncovered at rest"));
-  const ToolResult without = follow_near({"-o", "-", "-q"});
+  const ToolResult without = follow_near({"-o", "-", "-q", "--renew", "0"});
   ASSERT_EQ(without.exit_code, 0) << without.err;
   EXPECT_THAT(without.out, testing::Not(HasSubstr("renewed")));
   const std::string table = read_file(path("a.csv"));
@@ -159,6 +159,7 @@ TEST_F(FollowCommand, AnOpenMeshHasNoVolumeThatCouldGrow) {
   const ToolResult result = follow({"open.obj", "open.obj", "--balls", "balls.csv", "--renew", "1"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, HasSubstr("--renew: open.obj is not closed"));
+  EXPECT_EQ(follow({"open.obj", "open.obj", "--balls", "balls.csv"}).exit_code, 0);
 }
 
 TEST_F(FollowCommand, ThePublishedRuleReportsWhatMayBeOutside) {

@@ -46,8 +46,8 @@ class MotionFitCommand : public test::ToolTest {
 
   /// The mean of the column of uncovered shares that `medial-vk follow` measures, and the greatest.
   std::pair<double, double> followed(const std::string& balls) const {
-    const ToolResult result =
-        run({"follow", "box_0.obj", "box_1.obj", "box_2.obj", "--balls", balls, "--steps", "0", "-q", "-o", "-"});
+    const ToolResult result = run({"follow", "box_0.obj", "box_1.obj", "box_2.obj", "--balls", balls, "--steps", "0",
+                                   "--renew", "0", "-q", "-o", "-"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     std::istringstream lines(result.out);
     std::string line;

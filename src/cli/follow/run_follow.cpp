@@ -122,7 +122,9 @@ class FollowRun {
         prepare_loaded(motion_->rest(), options_.rest, shared_.opening, prepare, shared_.times);
     if (!prepared) return prepared.error();
     if (Status status = check_size(prepared.value().mesh.vertices, options_.rest); !status) return status;
-    if (options_.follower.renewed > 0 && !prepared.value().report.closed) {
+    const bool may_renew = prepared.value().report.closed;
+    if (options_.has_usual_renewal && !may_renew) options_.follower.renewed = 0;
+    if (options_.follower.renewed > 0 && !may_renew) {
       return Error{ErrorCode::kUsage,
                    fmt::format("--renew: {} is not closed, so its uncovered volume is not known", options_.rest)};
     }
@@ -297,7 +299,7 @@ class FollowRun {
     return print_check(check_, std::ranges::any_of(files_, [](const OutputFile& file) { return file.path == "-"; }));
   }
 
-  const FollowOptions& options_;
+  FollowOptions options_;
   SharedOfRun shared_;
   std::unique_ptr<MeshMotion> motion_;
   std::optional<VertexMap> map_;

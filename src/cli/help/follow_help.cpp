@@ -59,7 +59,8 @@ How balls inside follow:
                         in the source, and balls that may reach out a little
       --from-rest       compute each frame from rest, not from the frame before
       --renew N         choose up to N balls of a frame anew, at gaps, where the
-                        uncovered share of the volume has grown (default 0)
+                        uncovered share of the volume has grown (default 25; 0
+                        of an open mesh, with --rig, and as published)
       --renew-factor F  to more than F times that at rest (default 1.5)
       --protrusion XI   for published: how far balls may reach out, as a share
                         of the longest side (default 0.0025)

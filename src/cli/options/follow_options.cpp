@@ -23,6 +23,7 @@ constexpr std::uint64_t kMostRenewed = 10'000;
 struct GivenToFollow {
   std::size_t count = 0;
   double protrusion = 0, frames_per_second = 0, renewal_factor = 0, grown = 0;
+  bool renewed = false;
   ViewChoice view;
 };
 
@@ -109,6 +110,12 @@ Status check_contract(const CLI::App& app, const FollowOptions& options) {
   return {};
 }
 
+/// True if balls may be chosen anew, as far as the command line tells.
+bool may_renew(const FollowOptions& options, const GivenToFollow& given) {
+  const bool is_possible = !options.covers() && options.follower.rule == FollowRule::kTangent && options.rig.empty();
+  return is_possible && (options.follower.renewed > 0 || !given.renewed);
+}
+
 /// The published rule has one contact and no steps, but may reach out.
 Status check_rule(const FollowOptions& options, const GivenToFollow& given, bool has_steps) {
   const bool is_published = options.follower.rule == FollowRule::kPublished;
@@ -119,8 +126,9 @@ Status check_rule(const FollowOptions& options, const GivenToFollow& given, bool
   if (is_published && options.follower.renewed > 0) {
     return usage_error("--renew exchanges balls of --rule tangent; those of --rule published are only those at rest");
   }
-  if (given.renewal_factor > 0 && options.follower.renewed == 0) {
-    return usage_error("--renew-factor says when balls are chosen anew; give their greatest number, --renew N, too");
+  if (given.renewal_factor > 0 && !may_renew(options, given)) {
+    return usage_error(
+        "--renew-factor says when balls are chosen anew; with --renew 0, --rig or --rule published none is");
   }
   if (is_published && options.check) {
     return usage_error("--check tests that balls are inside, which --rule published does not promise");
@@ -219,6 +227,7 @@ Result<FollowOptions> FollowOptionParser::parse(const std::vector<std::string>& 
   }
   if (options.help) return options;
   const bool has_steps = declared_->app.count("--steps") > 0;
+  declared_->given.renewed = declared_->app.count("--renew") > 0;
   if (Status status = check_contract(declared_->app, options); !status) return status.error();
   if (Status status = check_follow_inputs(options, given); !status) return status.error();
   if (Status status = check_rule(options, given, has_steps); !status) return status.error();
@@ -231,6 +240,8 @@ Result<FollowOptions> FollowOptionParser::parse(const std::vector<std::string>& 
   if (Status status = take_view(given.view, !options.picture.empty() || !options.html.empty(), options.view); !status) {
     return status.error();
   }
+  options.has_usual_renewal = !given.renewed && may_renew(options, given);
+  if (options.has_usual_renewal) options.follower.renewed = kUsualRenewed;
   options.has_usual_output = options.outputs.empty();
   if (options.has_usual_output) options.outputs = {usual_output(options.rest)};
   if (Status status = check_follow_outputs(options); !status) return status.error();

@@ -20,6 +20,8 @@ namespace medial_vk::cli {
 
 /// Balls to fit, unless the command line has another number. A cover of many takes minutes.
 constexpr std::size_t kUsualFollowers = 500, kUsualCoverCount = 100;
+/// Balls of a frame that may be chosen anew, where that is possible.
+constexpr std::uint32_t kUsualRenewed = 25;
 
 struct FollowOptions {
   bool help = false;
@@ -39,6 +41,7 @@ struct FollowOptions {
   std::string device;
 
   FollowerOptions follower;  ///< `threads` is the number for the whole run, and `steps` that of covers, too.
+  bool has_usual_renewal = false;  ///< `follower.renewed` is the usual number; 0 for a mesh that is not closed.
   bool from_rest = false;    ///< Each frame is computed from the rest pose alone.
   bool tighten = false;      ///< A cover is divided anew in each frame.
   double grown = 1.25;       ///< A ball of a cover beyond so many times its radius at rest counts as grown.

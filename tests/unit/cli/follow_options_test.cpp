@@ -25,6 +25,8 @@ TEST(FollowOptions, Defaults) {
   expected.outputs = {"rest.follow.npz"};
   expected.has_usual_output = true;
   expected.follower.steps = 1;
+  expected.follower.renewed = kUsualRenewed;
+  expected.has_usual_renewal = true;
   EXPECT_EQ(parsed_follow({"models/rest.obj", "a.obj", "b.obj"}), expected);
   EXPECT_EQ(parsed_follow({"dancer.glb"}).outputs, std::vector<std::string>{"dancer.follow.npz"});
   EXPECT_EQ(parsed_follow({"-", "a.obj"}).outputs, std::vector<std::string>{"stdin.follow.npz"});
@@ -45,6 +47,8 @@ TEST(FollowOptions, AllAtOnce) {
   expected.resolution = 50;
   expected.from_rest = expected.check = expected.verbose = true;
   expected.follower.steps = 0;
+  expected.follower.renewed = kUsualRenewed;
+  expected.has_usual_renewal = true;
   expected.follower.shrunk = 0.25;
   expected.follower.object_angle = 0.75;
   expected.follower.threads = 3;
@@ -75,6 +79,18 @@ TEST(FollowOptions, BallsChosenAnew) {
   EXPECT_EQ(options.follower.renewal_factor, 1.25);
   EXPECT_EQ(parsed_follow({"r.obj", "a.obj", "--renew", "25"}).follower.renewal_factor, 1.5);
   EXPECT_EQ(parsed_follow({"r.glb", "--rig", "a.json", "--renew", "0"}).follower.renewed, 0u);
+  EXPECT_FALSE(options.has_usual_renewal);
+  const FollowOptions usual = parsed_follow({"r.obj", "a.obj", "--renew-factor", "2"});
+  EXPECT_TRUE(usual.has_usual_renewal);
+  EXPECT_EQ(usual.follower.renewed, kUsualRenewed);
+  for (const std::vector<std::string>& none :
+       std::vector<std::vector<std::string>>{{"r.glb", "--rig", "a.json"},
+                                             {"r.obj", "a.obj", "--rule", "published"},
+                                             {"r.obj", "a.obj", "--contract", "cover"},
+                                             {"r.obj", "a.obj", "--renew", "0"}}) {
+    EXPECT_EQ(parsed_follow(none).follower.renewed, 0u) << none.back();
+    EXPECT_FALSE(parsed_follow(none).has_usual_renewal) << none.back();
+  }
 }
 
 TEST(FollowOptions, Covers) {
@@ -137,7 +153,7 @@ TEST(FollowOptions, WhatExcludesEachOther) {
   EXPECT_THAT(follow_message({"r.obj", "a.obj", "--rule", "published", "--check"}), HasSubstr("--check"));
   EXPECT_THAT(follow_message({"r.obj", "a.obj", "--protrusion", "0.1"}), HasSubstr("--rule published"));
   EXPECT_THAT(follow_message({"r.obj", "a.obj", "--rule", "published", "--renew", "1"}), HasSubstr("--renew"));
-  EXPECT_THAT(follow_message({"r.obj", "a.obj", "--renew-factor", "2"}), HasSubstr("--renew N"));
+  EXPECT_THAT(follow_message({"r.obj", "a.obj", "--renew", "0", "--renew-factor", "2"}), HasSubstr("--renew 0"));
   EXPECT_THAT(follow_message({"r.glb", "--rig", "a.json", "--renew", "1"}), HasSubstr("--rig"));
   EXPECT_THAT(follow_message({"r.obj", "a.obj", "-q", "-v"}), HasSubstr("-q and -v"));
   EXPECT_THAT(follow_message({"r.obj", "a.obj", "--backend", "cpu", "--device", "0"}), HasSubstr("--device"));
