@@ -27,8 +27,8 @@ TrackedBall drawn_to_rest(const MovingSurface& surface, const TrackedBall& rest,
 TrackedBall recovered_ball(const MovingSurface& surface, const TrackedBall& lost);
 
 /// The greatest ball around a point off the surface that touches it at the point nearest to `guess`; radius 0: `guess`
-/// is outside, as far as the normal of the nearest triangle tells. `a` and `b`: the contacts of a ball nearby, if known;
-/// the one farther from that nearest point is the `other` of greatest_ball().
+/// is outside, as far as the normal of the nearest triangle tells. `a` and `b`: the contacts of a ball nearby, if
+/// known; the one farther from that nearest point is the `other` of greatest_ball().
 TrackedBall greatest_ball_at(const MovingSurface& surface, const Point& guess, const SurfacePoint& a,
                              const SurfacePoint& b);
 
