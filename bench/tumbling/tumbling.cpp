@@ -1,7 +1,8 @@
 // The experiment of the source's Section 8.5: two copies of a solid tumble in a box, and in every frame their distance
 // is computed by several methods. Rows of a table.
-//   bench_tumbling [--frames N] [--repeats N] MESH SOURCE.csv INSIDE.csv COVER.csv
+//   bench_tumbling [--frames N] [--repeats N] [--hierarchy TEXT] NAME.body.npz SOURCE.csv
 // SOURCE.csv: medial spheres as the source chooses them (medial-vk spheres --method source), which are grown here.
+// --hierarchy: only rows of hierarchies whose name contains the text.
 // Frames in which the solids meet are left out. Every query starts from the answer for the frame before. Times are
 // medians of the repeats, per frame, on one thread; FCL answers every tenth frame.
 #include <fmt/format.h>
@@ -17,8 +18,8 @@
 #include "../distances/measuring.h"
 #include "../trees/binary_tree.h"
 #include "../unions/ball_files.h"
+#include "body_files/body_file.h"
 #include "grown_balls.h"
-#include "input/read_mesh.h"
 #include "medial_vk/prepare.h"
 #include "medial_vk/proximity.h"
 #include "tumble.h"
@@ -52,8 +53,11 @@ Frames frames_of(const Body& body, const std::vector<Pose>& poses) {
 /// Prints rows of the table about one mesh.
 class Table {
  public:
-  Table(std::string mesh, const Frames& frames, double side, int repeats)
-      : mesh_(std::move(mesh)), frames_(frames), unit_(side / 10), repeats_(repeats) {}
+  Table(std::string mesh, const Frames& frames, double side, int repeats, std::string chosen)
+      : mesh_(std::move(mesh)), frames_(frames), unit_(side / 10), repeats_(repeats), chosen_(std::move(chosen)) {}
+
+  /// Whether there is to be a row for a hierarchy.
+  bool wants(const std::string& tree) const { return tree.find(chosen_) != std::string::npos; }
 
   /// `answers(visit)` calls visit(i, distance) for each frame. `tests`: pairs of volumes in all frames, 0: not counted.
   void row(const std::string& what, const std::string& tree, const std::function<double()>& run,
@@ -80,11 +84,13 @@ class Table {
   const Frames& frames_;
   double unit_;
   int repeats_;
+  std::string chosen_;
 };
 
 template <class Volume>
 void measure_tree(const Table& table, const Frames& frames, const std::vector<Ball>& balls, const Pairing& pairing,
                   const std::string& name) {
+  if (!table.wants(name)) return;
   const BinaryTree<Volume> tree(balls, pairing);
   std::vector<double> answers(frames.poses.size());
   std::uint64_t tests = 0;
@@ -103,23 +109,26 @@ void measure_tree(const Table& table, const Frames& frames, const std::vector<Ba
   table.row(fmt::format("{} grown", balls.size()), name, run, answers, tests);
 }
 
-/// The library's tree: `middle` of both bounds, or the upper one.
-void measure_bounds(const Table& table, const Frames& frames, const Body& body, const std::string& what, bool middle) {
+/// The library's tree, and the number that `answer_of` takes from both bounds.
+void measure_bounds(const Table& table, const Frames& frames, const Body& body, const std::string& what,
+                    const std::string& tree, double (*answer_of)(const Body&, const Body&, const DistanceBounds&)) {
+  if (!table.wants(tree)) return;
   std::vector<double> answers(frames.poses.size());
   const auto run = [&] {
     DistanceBounds last;
     return microseconds_each(frames.poses.size(), [&] {
       for (std::size_t i = 0; i < frames.poses.size(); ++i) {
         last = distance_bounds(body, body, frames.poses[i], last);
-        answers[i] = middle ? (last.lower + last.upper) / 2 : last.upper;
+        answers[i] = answer_of(body, body, last);
       }
     });
   };
   run();
-  table.row(what, middle ? "8-wide, both bounds" : "8-wide", run, answers);
+  table.row(what, tree, run, answers);
 }
 
 void measure_exact(const Table& table, const Frames& frames, const Body& body, const Mesh& mesh) {
+  if (!table.wants("exact")) return;
   const std::string what = fmt::format("{} triangles", mesh.triangles.size());
   std::vector<double> answers(frames.poses.size());
   const auto run = [&] {
@@ -159,40 +168,43 @@ void measure_exact(const Table& table, const Frames& frames, const Body& body, c
 int main(int argc, char** argv) {
   std::size_t count = 10000;
   int repeats = 3;
-  std::string mesh_file, source_file, inside_file, cover_file;
+  std::string body_file, source_file, hierarchy;
   CLI::App app("Distances of two copies of a solid that tumble in a box.");
   app.add_option("--frames", count, "frames of a sixtieth of a second")->check(CLI::PositiveNumber);
   app.add_option("--repeats", repeats, "runs, of which the median counts")->check(CLI::PositiveNumber);
-  app.add_option("mesh", mesh_file)->required();
+  app.add_option("--hierarchy", hierarchy, "only those whose name contains the text");
+  app.add_option("body", body_file)->required();
   app.add_option("source", source_file)->required();
-  app.add_option("inside", inside_file)->required();
-  app.add_option("cover", cover_file)->required();
   CLI11_PARSE(app, argc, argv);
 
-  const Mesh mesh = or_exit(read_mesh(mesh_file));
-  const std::size_t slash = mesh_file.rfind('/') + 1;
-  const std::string name = mesh_file.substr(slash, mesh_file.rfind('.') - slash);
-  const IndexedMesh indexed = or_exit(IndexedMesh::build(or_exit(prepare_mesh(mesh))));
-  const std::vector<Ball> inside = read_balls(inside_file), cover = read_balls(cover_file);
+  const BodyFile file = or_exit(read_body_file(body_file));
+  const std::size_t slash = body_file.rfind('/') + 1;
+  const std::string name = body_file.substr(slash, body_file.find('.', slash) - slash);
+  const IndexedMesh indexed = or_exit(IndexedMesh::build(or_exit(prepare_mesh(Mesh(file.mesh)))));
   const std::vector<Ball> grown = or_exit(grown_balls(indexed, read_balls(source_file)));
-  const Body body = or_exit(Body::create(indexed, inside, cover));
+  const Body body = or_exit(Body::create(indexed, file.inside, file.cover));
 
   const auto& box = indexed.prepared().report;
   Point middle;
   for (std::size_t k = 0; k < 3; ++k) middle[k] = (box.lower[k] + box.upper[k]) / 2;
-  const double side = longest_side(mesh);
-  const Frames frames = frames_of(body, tumble(inside, middle, side, count));
+  const double side = longest_side(file.mesh);
+  const Frames frames = frames_of(body, tumble(file.inside, middle, side, count));
   if (frames.poses.empty()) or_exit(Result<int>(Error{ErrorCode::kInternal, "the solids meet in every frame"}));
-  const Table table(name, frames, side, repeats);
+  const Table table(name, frames, side, repeats, hierarchy);
   const Pairing down = pair_top_down(grown), up = pair_bottom_up(grown);
   measure_tree<BoundingBall>(table, frames, grown, down, "balls, top-down");
   measure_tree<SweptRectangle>(table, frames, grown, down, "swept rectangles, top-down");
   measure_tree<BoundingBall>(table, frames, grown, up, "balls, bottom-up");
   measure_tree<SweptRectangle>(table, frames, grown, up, "swept rectangles, bottom-up");
   const Body grown_body = or_exit(Body::create(grown, {}));
-  measure_bounds(table, frames, grown_body, fmt::format("{} grown", grown.size()), false);
-  measure_bounds(table, frames, body, fmt::format("{} inside, {} cover", inside.size(), cover.size()), true);
-  measure_exact(table, frames, body, mesh);
+  const std::string both = fmt::format("{} inside, {} cover", file.inside.size(), file.cover.size());
+  measure_bounds(table, frames, grown_body, fmt::format("{} grown", grown.size()), "8-wide",
+                 [](const Body&, const Body&, const DistanceBounds& bounds) { return bounds.upper; });
+  measure_bounds(
+      table, frames, body, both, "8-wide, both bounds",
+      [](const Body&, const Body&, const DistanceBounds& bounds) { return (bounds.lower + bounds.upper) / 2; });
+  measure_bounds(table, frames, body, both, "8-wide, estimate", estimated_distance);
+  measure_exact(table, frames, body, file.mesh);
   double nearest = side, farthest = 0;
   for (const double d : frames.distances) nearest = std::min(nearest, d), farthest = std::max(farthest, d);
   fmt::print(stderr, "{}: {} frames; in {} the solids meet; distances from {:.3f} to {:.3f} of a side\n", name, count,
