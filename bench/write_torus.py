@@ -9,7 +9,7 @@ import sys
 
 arguments = [argument for argument in sys.argv[1:] if argument != "--round"]
 is_round = len(arguments) < len(sys.argv) - 1
-if not arguments or arguments[0].startswith("-"):
+if not arguments or any(argument.startswith("-") for argument in arguments):
     sys.exit(__doc__)
 
 # Around the tube and along the circle; two and a half times as many along, or twice as many of the round one, for

@@ -2,8 +2,9 @@
 //   bench_following [--frames N] [--repeats N] [--threads N] [--motion NAME] [--fresh | --extract N] MESH BALLS.csv
 // For each motion and rule: the share of the solid's volume that is in no ball at its end, the greatest one of any
 // frame there and back, that where the last frame is computed from the rest pose at once, and that after the way back;
-// the time of a frame by the clock and of the processor, medians of all frames and repeats; with --fresh beside a new
-// fit of as many balls to the last frame, with --extract beside all medial points of the last frame at resolution N.
+// for the published rule the bound of Lemma 7.3 and the share outside the solid, by samples, of its last frame; the
+// time of a frame by the clock and of the processor, medians of all frames and repeats; with --fresh beside a new fit
+// of as many balls to the last frame, with --extract beside all medial points of the last frame at resolution N.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -120,6 +121,7 @@ void follow(const std::string& title, const Rule& rule, const IndexedMesh& mesh,
   exit_unless(follower.reset());
   exit_unless(follower.update(frames.back()));
   const Uncovered at_once = uncovered(follower);
+  // Frames of the published rule do not depend on those before.
   const std::string outside = options.rule == FollowRule::kPublished ? outside_text(mesh, frames.back(), follower) : "";
   fmt::print("| {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {} | {:.2f} | {:.2f} | {} | {:.0f} | {:.2f} | {:.2f} |\n",
              title, rule.name, rest.share, end.share, worst_share(follower, frames), at_once.share, fresh,

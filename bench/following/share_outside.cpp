@@ -76,6 +76,7 @@ Solid solid_at(const IndexedMesh& mesh, const std::vector<Point>& frame) {
 
 ShareOutside share_outside(const IndexedMesh& mesh, const std::vector<Point>& frame, std::span<const Ball> balls,
                            double protrusion) {
+  if (std::ranges::none_of(balls, [](const Ball& ball) { return ball.radius > 0; })) return {0, 0};
   const Solid solid = solid_at(mesh, frame);
   Layers layers(balls, protrusion);
   std::mt19937_64 random(7);
@@ -86,8 +87,9 @@ ShareOutside share_outside(const IndexedMesh& mesh, const std::vector<Point>& fr
     sum += weight;
     squares += weight * weight;
   }
-  const double mean = sum / kSamples, variance = std::max(0.0, squares / kSamples - mean * mean);
   const double percent = 100 * layers.volume() / solid.volume();
+  if (!(sum > 0)) return {0, 3 * percent / kSamples};
+  const double mean = sum / kSamples, variance = std::max(0.0, squares / kSamples - mean * mean);
   return {percent * mean, percent * std::sqrt(variance / kSamples)};
 }
 

@@ -159,6 +159,7 @@ TEST_F(FollowCommand, AnOpenMeshHasNoVolumeThatCouldGrow) {
   const ToolResult result = follow({"open.obj", "open.obj", "--balls", "balls.csv", "--renew", "1"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, HasSubstr("--renew: open.obj is not closed"));
+  EXPECT_EQ(follow({"open.obj", "open.obj", "--balls", "balls.csv", "--renew-factor", "2"}).exit_code, 2);
   EXPECT_EQ(follow({"open.obj", "open.obj", "--balls", "balls.csv"}).exit_code, 0);
 }
 

@@ -112,11 +112,13 @@ class TriangleParts {
 
 /// The points that three spheres have in common.
 ///
-/// A cavity of the union has, in every direction, a farthest point, where the direction is in the cone of the inward
-/// normals of three spheres. If the centres are on one line but for a sine s at the smallest ball, and the common
-/// circle has a radius of at least g / 100, g the greatest radius, these normals span a spherical triangle of area at
-/// most 2 (4 s) / (4 / 100^2): fewer than 10^8 triples with s < 10^-12 leave most directions to other triples. So they
-/// have no point to test, and rounding, which decides where their planes meet, has no say.
+/// A cavity of the union has, in every direction u, a farthest point, with u in the cone of the inward unit normals w
+/// of three spheres there. Let their centres be on one line but for the sine s at the smallest ball. The balls meet, so
+/// that |det w| <= 4 s. If the spheres' common circle has a radius of at least g / 100, g the greatest radius, the
+/// sides a, b, c of the spherical triangle of the w have 1 + cos a + cos b + cos c >= 4 / 100^2, so that it has an area
+/// of at most 2 * 4 s / (4 / 100^2) = 2 * 10^4 s. With s < 10^-12, both points of 10^8 such triples serve less than a
+/// third of all u. So these points need no test, and rounding, which decides where they are, has no say. Smaller
+/// circles are tested.
 class Corner {
  public:
   Corner(const UnionBall& one, const UnionBall& two, const UnionBall& three) : spheres_{&one, &two, &three} {
@@ -146,6 +148,8 @@ class Corner {
   }
 
   bool exists() const { return exists_; }
+  /// The points stand for a small circle around the line of the centres: error() reaches it.
+  bool is_circle() const { return is_circle_; }
   const std::array<Vector3d, 2>& points() const { return points_; }
 
   /// A bound of the distance of the true point from a computed one: the residual of the equations, through the inverse
@@ -160,8 +164,8 @@ class Corner {
       greatest = std::max(greatest, spheres_[k]->radius);
     }
     left += 16 * kUnit * (greatest + at.norm());
-    const double inverse =
-        directions.fullPivLu().isInvertible() ? directions.inverse().norm() : std::numeric_limits<double>::infinity();
+    const bool has_inverse = !is_circle_ && directions.fullPivLu().isInvertible();
+    const double inverse = has_inverse ? directions.inverse().norm() : std::numeric_limits<double>::infinity();
     return std::min(2 * left * inverse, 4 * std::sqrt((left + 1e-9 * greatest) * greatest));
   }
 
@@ -179,12 +183,12 @@ class Corner {
     if (squared < -rounding || squared > small) return;
     if (std::abs(first - second) > 4 * std::sqrt(std::max(0.0, squared) + rounding)) return;
     points_ = {a.centre + first * along, a.centre + first * along};
-    exists_ = true;
+    exists_ = is_circle_ = true;
   }
 
   std::array<const UnionBall*, 3> spheres_;
   std::array<Vector3d, 2> points_;
-  bool exists_ = false;
+  bool exists_ = false, is_circle_ = false;
 };
 
 class CoverCheck {
@@ -248,11 +252,20 @@ class CoverCheck {
     });
   }
 
+  /// True if a ball besides the three holds all points that are no farther away than `reach`.
+  bool is_held_by_others(const Vector3d& at, const std::vector<std::size_t>& by,
+                         const std::array<std::size_t, 3>& three, double reach) const {
+    return std::any_of(by.begin(), by.end(), [&](std::size_t i) {
+      const bool is_other = std::find(three.begin(), three.end(), i) == three.end();
+      return is_other && (at - balls_[i].centre).norm() + reach < balls_[i].radius * (1 - 1e-10);
+    });
+  }
+
   void corner(std::size_t a, std::size_t b, std::size_t c, const std::vector<std::size_t>& near) {
     const Corner corner(balls_[a], balls_[b], balls_[c]);
     if (!corner.exists()) return;
     for (const Vector3d& at : corner.points()) {
-      if (is_held(at, near)) continue;
+      if (corner.is_circle() ? is_held_by_others(at, near, {a, b, c}, corner.error(at)) : is_held(at, near)) continue;
       const double distance = tree_.closest(at).distance - 2 * tree_.rounding();
       const double margin = is_inside(tree_, at) ? -1 : distance - corner.error(at);
       corners_.test(margin, "corner of ball", a, at);

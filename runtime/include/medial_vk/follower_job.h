@@ -50,9 +50,10 @@ struct FollowerBuffers {
 };
 
 /// A ball whose radius is not 0 is open and lies inside the frame of the float vertices, in exact arithmetic: in that
-/// set of points which have a positive winding number. Radii are less than those of Follower by up to 1e-5 (L + M),
-/// where L is the longest side of the frame and M its greatest coordinate; balls below that are lost. Vulkan leaves the
-/// rounding to the driver, so that balls may differ between devices, but all are inside.
+/// set of points which have a positive winding number. For the same contacts and directions radii are less than
+/// those of a Follower without steps by up to 1e-5 (L + M), where L is the longest side of the frame and M its greatest
+/// coordinate; balls below that are lost. At an edge or a vertex one triangle carries directions here, all of them
+/// there. Vulkan leaves the rounding to the driver, so that balls may differ between devices, but all are inside.
 ///
 /// Triangles without an area and triangles that cross are permitted. All balls are lost, and the next frame follows the
 /// one before, in a frame with a coordinate that is not finite, with a longest side that is 4,096 times longer or

@@ -24,6 +24,8 @@
 namespace medial_vk {
 namespace {
 
+constexpr double kAnyVolume = std::numeric_limits<double>::infinity();
+
 constexpr std::size_t kBlock = 16;  // balls that one thread takes at a time
 
 /// By which a given ball may reach out of the mesh, as a share of the longest side: that of coordinates in float.
@@ -111,7 +113,6 @@ class Follower::Impl {
   std::span<const FollowOrigin> origins() const { return origins_; }
 
   Result<FollowMeasures> measure() const {
-    constexpr double kAnyVolume = std::numeric_limits<double>::infinity();
     FollowMeasures measures;
     Result<BallUnion> balls = measure_ball_union(balls_, BallUnionOptions{options_.threads});
     if (!balls) return balls.error();
@@ -201,7 +202,10 @@ class Follower::Impl {
     return measurer_.measure(present_, complex, pool_);
   }
 
-  double uncovered_share(const BallUnion& balls) const { return 1 - balls.volume / surface_.volume(); }
+  /// Not a number where the volume of the solid is not known.
+  double uncovered_share(const BallUnion& balls) const {
+    return 1 - balls.volume / surface_.solid_volume(balls.volume, kAnyVolume);
+  }
 
   /// Where the uncovered share has grown, balls leave for gaps.
   Status renew() {

@@ -12,11 +12,11 @@ double radius_through(const Point& at, const Point& towards_centre, const Point&
   return along > 0 ? dot(w, w) / (2 * along) : std::numeric_limits<double>::infinity();
 }
 
-namespace {
-
 double contact_slack(const MovingSurface& surface) {
   return kContactSlack * surface.longest_side() + 4 * surface.rounding();
 }
+
+namespace {
 
 /// From a ball of this radius.
 TrackedBall shrunk_ball(const MovingSurface& surface, const BallContact& contact, const SurfacePoint& other,

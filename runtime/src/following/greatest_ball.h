@@ -9,6 +9,8 @@ namespace medial_vk {
 /// Balls end this share of the longest side before the surface, so that a contact that is known up to rounding is found
 /// to be that contact, and one query suffices. It costs as small a share of a ball's radius.
 inline constexpr double kContactSlack = 1e-10;
+/// With rounding, as a distance.
+double contact_slack(const MovingSurface& surface);
 
 /// The least radius of a ball, as a share of the longest side: a smaller one has the radius 0. At a distance of s times
 /// its size, a solid angle has an error of some 2^-50 / s, so that the sum of those of a hundred thousand triangles is

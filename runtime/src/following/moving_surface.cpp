@@ -100,17 +100,18 @@ Status MovingSurface::return_to_rest(unsigned threads) {
 Point MovingSurface::carried_by_all(const Point& direction, const SurfacePoint& at, std::span<const Point> from,
                                     double from_front) const {
   const auto image_by = [&](std::uint32_t triangle) {
-    return carried_direction(direction, corners_of(from, triangle), from_front, corners(triangle), front_);
+    return carried_by_triangle(direction, corners_of(from, triangle), from_front, corners(triangle), front_);
   };
-  if (at.is_within_face()) return image_by(at.triangle);
+  if (at.is_within_face()) return image_by(at.triangle).value_or(direction);
   const auto [first, second] = side_of(at, triangles()[at.triangle]);
   Point sum = {0, 0, 0};
   for (const std::uint32_t t : around_.of(first)) {
     const Triangle& triangle = triangles()[t];
-    if (std::ranges::find(triangle, second) != triangle.end()) sum = sum + image_by(t);
+    if (std::ranges::find(triangle, second) == triangle.end()) continue;
+    if (const auto image = image_by(t)) sum = sum + *image;
   }
   const double size = length(sum);
-  return size > 0 ? (1 / size) * sum : image_by(at.triangle);
+  return size > 0 ? (1 / size) * sum : image_by(at.triangle).value_or(direction);
 }
 
 Status MovingSurface::measure(unsigned threads) {

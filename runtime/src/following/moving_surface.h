@@ -45,7 +45,7 @@ class MovingSurface {
     return surface_point_at(hit.point, hit.triangle, corners(hit.triangle));
   }
   /// The direction in the last frame at a point, in the present one. On an edge or at a vertex all triangles around
-  /// carry it, and the mean counts: which of them holds the point is a matter of rounding.
+  /// with an area carry it, and the mean counts: which of them holds the point is a matter of rounding.
   Point carried(const Point& direction, const SurfacePoint& at) const {
     return carried_by_all(direction, at, last_vertices_, last_front_);
   }

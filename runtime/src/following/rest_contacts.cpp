@@ -14,17 +14,18 @@
 namespace medial_vk {
 namespace {
 
-/// Points of the surface touch a ball if they are this share of the longest side farther from the centre than the
-/// nearest one, or less: greatest_ball() ends balls one slack before the surface.
-constexpr double kTouching = 2 * kContactSlack;
+/// Points of the surface touch a ball if they are so many slacks farther from the centre than the nearest one, or less:
+/// greatest_ball() ends balls one slack before the surface.
+constexpr double kTouching = 2;
 
-/// Contacts at this half angle t leave the radius an error of kTouching / (2 sin^2 t), a millionth of the longest side.
+/// Contacts at this half angle t leave the radius an error of kTouching slacks / (2 sin^2 t), a millionth of the
+/// longest side.
 constexpr double kLeastAngle = 0.01;
 
 /// By which such an error may make the ball smaller, as a share of its radius.
 constexpr double kLost = 1e-3;
 
-/// Distances that differ by less are equal: which contact is farther must not depend on rounding.
+/// Squared distances that differ by less are equal: which contact is farther must not depend on rounding.
 constexpr double kFarther = 1 + 1e-9;
 
 struct Touch {
@@ -67,7 +68,7 @@ BallContact contact_at(const Point& at, const SurfacePoint& on, const Point& cen
 TrackedBall ball_with_contacts(const MovingSurface& surface, const Ball& ball) {
   const BvhHit nearest = surface.closest(ball.centre, std::numeric_limits<double>::infinity());
   const double distance = std::sqrt(nearest.squared_distance);
-  const std::vector<BvhHit> hits = surface.within(ball.centre, distance + kTouching * surface.longest_side());
+  const std::vector<BvhHit> hits = surface.within(ball.centre, distance + kTouching * contact_slack(surface));
   std::vector<Touch> touches;
   touches.reserve(hits.size());
   for (const BvhHit& hit : hits) touches.push_back(touch_of(surface, hit));

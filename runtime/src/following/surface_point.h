@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "base/point_ops.h"
 #include "medial_vk/bvh.h"
@@ -38,7 +39,11 @@ Point inward_normal_of(const Corners3& corners, double front);
 
 /// The inward normal of the surface, by its component along that of a triangle: the image of a unit vector under F^-T,
 /// with F the map of the triangle and its inward unit normal from one frame to the next, of length 1. `front` as above,
-/// in either frame. A triangle without an area in one of the frames leaves the direction as it is.
+/// in either frame. None by a triangle that has no area in one of the frames.
+std::optional<Point> carried_by_triangle(const Point& direction, const Corners3& corners, double front,
+                                         const Corners3& new_corners, double new_front);
+
+/// The same, but a triangle without an area leaves the direction as it is.
 Point carried_direction(const Point& direction, const Corners3& corners, double front, const Corners3& new_corners,
                         double new_front);
 

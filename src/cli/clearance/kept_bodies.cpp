@@ -7,7 +7,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <limits>
+#include <map>
 #include <span>
 #include <system_error>
 #include <utility>
@@ -23,7 +25,7 @@
 namespace medial_vk::cli {
 namespace {
 
-/// FNV-1a over 64 bits, for names: the mesh of a file is compared besides.
+/// FNV-1a over 64 bits, for names: meshes are compared besides.
 class Digest {
  public:
   void add_bytes(std::span<const std::byte> bytes) {
@@ -51,6 +53,26 @@ class Digest {
  private:
   std::uint64_t hash_ = 0xcbf29ce484222325ull;
 };
+
+bool has_same_shape(const LinkSolid& a, const LinkSolid& b) {
+  if (a.ball && b.ball) return a.ball->centre == b.ball->centre && a.ball->radius == b.ball->radius;
+  if (a.ball || b.ball) return false;
+  const Mesh &first = a.mesh.prepared().mesh, &second = b.mesh.prepared().mesh;
+  return first.vertices == second.vertices && first.triangles == second.triangles;
+}
+
+/// Of two links, whose first solids have these numbers; that of the second one ends before `end`.
+bool have_same_shapes(const RobotAndScene& all, std::size_t first, std::size_t begin, std::size_t end) {
+  for (std::size_t i = begin; i < end; ++i) {
+    const std::size_t other = first + (i - begin);
+    if (other >= begin || all.solids.around[other].link != all.solids.around[first].link) return false;
+    const bool is_same = has_same_shape(all.solids.around[i], all.solids.around[other]) &&
+                         has_same_shape(all.solids.inside[i], all.solids.inside[other]);
+    if (!is_same) return false;
+  }
+  const std::size_t behind = first + (end - begin);  // of the first link, which may have more solids
+  return behind == begin || all.solids.around[behind].link != all.solids.around[first].link;
+}
 
 /// The name of a part or of a file without folder and ending, in letters that every file system takes.
 std::string plain_stem(const std::string& name) {
@@ -136,7 +158,15 @@ Status check_folder(const std::string& folder) {
   const std::filesystem::file_status status = std::filesystem::status(folder, error);
   if (std::filesystem::is_directory(status)) return {};
   if (std::filesystem::exists(status)) return cannot_make(folder, "is no folder");
+  if (std::filesystem::is_symlink(std::filesystem::symlink_status(folder, error))) {
+    return cannot_make(folder, "is a link to nothing");
+  }
   return check_writable(folder);
+}
+
+Status check_writable_folder(const std::string& folder) {
+  std::error_code error;
+  return std::filesystem::is_directory(folder, error) ? check_writable(folder + "/x.body.npz") : Status();
 }
 
 Status make_folder(const std::string& folder) {
@@ -150,6 +180,7 @@ std::vector<std::string> names_of_bodies(const RobotAndScene& all, const Clearan
   const std::vector<LinkSolid>&around = all.solids.around, &inside = all.solids.inside;
   std::vector<std::string> names;
   names.reserve(around.size());
+  std::map<std::string, std::size_t> first_of;  // by stem and digest: the first solid of the first such link
   for (std::size_t begin = 0, end = 0; begin < around.size(); begin = end) {
     Digest of_link;
     of_link.add(kBodyFileFormat);
@@ -158,6 +189,13 @@ std::vector<std::string> names_of_bodies(const RobotAndScene& all, const Clearan
     for (end = begin; end < around.size() && around[end].link == around[begin].link; ++end) {
       of_link.add_solid(around[end]);
       of_link.add_solid(inside[end]);
+    }
+    // Two shapes with one digest are told apart by what is hashed besides.
+    const std::string stem = plain_stem(around[begin].name);
+    while (true) {
+      const auto [first, is_new] = first_of.emplace(stem + of_link.text(), begin);
+      if (is_new || have_same_shapes(all, first->second, begin, end)) break;
+      of_link.add(std::uint8_t{1});
     }
     for (std::size_t i = begin; i < end; ++i) {
       Digest digest = of_link;
@@ -174,8 +212,10 @@ Result<std::optional<SolidBalls>> read_kept_body(const std::string& path, const 
   if (interrupted()) return stopped();
   std::error_code error;
   if (!std::filesystem::exists(path, error) && !error) return std::optional<SolidBalls>();
-  const auto refused = [](Error reason) {
-    if (reason.code == ErrorCode::kInvalidMesh) reason.message += "; remove the file to have the body fitted again";
+  const bool opens = std::filesystem::is_regular_file(path, error) && std::ifstream(path).good();
+  const auto refused = [opens](Error reason) {
+    if (opens && reason.code == ErrorCode::kInvalidMesh)
+      reason.message += "; remove the file to have the body fitted again";
     return reason;
   };
   Result<BodyFile> file = read_body_file(path);

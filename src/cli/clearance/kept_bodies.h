@@ -15,6 +15,9 @@ namespace medial_vk::cli {
 /// That the folder exists, or can be made where its own folder exists. Creates nothing. Error: kCannotWrite.
 Status check_folder(const std::string& folder);
 
+/// That files can be written in the folder, if it exists. Creates nothing. Error: kCannotWrite.
+Status check_writable_folder(const std::string& folder);
+
 /// Makes the folder if it does not exist. Error: kCannotWrite.
 Status make_folder(const std::string& folder);
 

@@ -144,10 +144,12 @@ class ClearanceRun {
     times_.push_back({"balls", stopwatch.lap()});
     if (!balls.has_all()) {
       if (Status status = fit_missing(balls); !status) return status;
+      stopwatch.lap();  // which fit_missing() has told
     }
     if (!options_.bodies.empty()) {
       if (Status status = keep_fitted_balls(all_, options_, known.value(), balls); !status) return status;
       has_kept_ = balls.fitted > 0;
+      if (has_kept_) tell_of_kept_bodies();
     }
     const Result<std::vector<GroupPart>> parts = bodies_of_balls(all_, balls);
     if (!parts) return parts.error();
@@ -160,7 +162,10 @@ class ClearanceRun {
   }
 
   Status fit_missing(BallsOfSolids& balls) {
-    if (!options_.bodies.empty()) start_device();
+    if (!options_.bodies.empty()) {
+      if (Status status = check_writable_folder(options_.bodies); !status) return status;
+      start_device();
+    }
     std::optional<Context> context;
     std::optional<DeviceDescription> device;
     if (Status status = opening_.take(context, device, times_); !status) return status;

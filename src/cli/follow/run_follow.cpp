@@ -122,9 +122,9 @@ class FollowRun {
         prepare_loaded(motion_->rest(), options_.rest, shared_.opening, prepare, shared_.times);
     if (!prepared) return prepared.error();
     if (Status status = check_size(prepared.value().mesh.vertices, options_.rest); !status) return status;
-    const bool may_renew = prepared.value().report.closed;
-    if (options_.has_usual_renewal && !may_renew) options_.follower.renewed = 0;
-    if (options_.follower.renewed > 0 && !may_renew) {
+    const MeshReport& report = prepared.value().report;
+    if (options_.has_usual_renewal && !(report.closed && encloses_volume(report))) options_.follower.renewed = 0;
+    if (options_.follower.renewed > 0 && !report.closed) {
       return Error{ErrorCode::kUsage,
                    fmt::format("--renew: {} is not closed, so its uncovered volume is not known", options_.rest)};
     }

@@ -62,13 +62,14 @@ Status check_clearance_inputs(const ClearanceOptions& options) {
 }
 
 /// Only the balls of links need a device and a folder, and they alone know no tolerance.
-Status check_balls_of_links(const ClearanceOptions& options) {
+Status check_balls_of_links(const ClearanceOptions& options, bool has_bodies) {
   if (options.balls == 0) {
-    if (!options.bodies.empty()) return usage_error("--bodies is about the balls of links: use it with --balls N");
+    if (has_bodies) return usage_error("--bodies is about the balls of links: use it with --balls N");
     if (options.decide) return usage_error("--decide is about what balls leave undecided: use it with --balls N");
     if (options.backend == Backend::kVulkan && options.device.empty() && options.resolution == 0) return {};
     return usage_error("--resolution, --backend and --device are about the fit of balls: use them with --balls N");
   }
+  if (has_bodies && options.bodies.empty()) return usage_error("--bodies: the name of the folder is empty");
   if (options.bodies == "-") return usage_error("--bodies: '-' is no folder");
   if (options.tolerance > 0 && !options.decide) {
     return usage_error("--balls answers without triangles: it has no --tolerance, except with --decide");
@@ -147,7 +148,8 @@ Result<ClearanceOptions> ClearanceOptionParser::parse(const std::vector<std::str
   if (options.help) return options;
   if (options.quiet && options.verbose) return usage_error("-q and -v cannot be used together");
   if (Status status = check_clearance_inputs(options); !status) return status.error();
-  if (Status status = check_balls_of_links(options); !status) return status.error();
+  const bool has_bodies = declared_->app.count("--bodies") > 0;
+  if (Status status = check_balls_of_links(options, has_bodies); !status) return status.error();
   if (Status status = take_view(declared_->view, !options.picture.empty() || !options.html.empty(), options.view);
       !status) {
     return status.error();

@@ -240,8 +240,10 @@ Result<FollowOptions> FollowOptionParser::parse(const std::vector<std::string>& 
   if (Status status = take_view(given.view, !options.picture.empty() || !options.html.empty(), options.view); !status) {
     return status.error();
   }
-  options.has_usual_renewal = !given.renewed && may_renew(options, given);
-  if (options.has_usual_renewal) options.follower.renewed = kUsualRenewed;
+  if (!given.renewed && may_renew(options, given)) {
+    options.follower.renewed = kUsualRenewed;
+    options.has_usual_renewal = !(given.renewal_factor > 0);
+  }
   options.has_usual_output = options.outputs.empty();
   if (options.has_usual_output) options.outputs = {usual_output(options.rest)};
   if (Status status = check_follow_outputs(options); !status) return status.error();

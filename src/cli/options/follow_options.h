@@ -40,11 +40,12 @@ struct FollowOptions {
   Backend backend = Backend::kVulkan;
   std::string device;
 
-  FollowerOptions follower;        ///< `threads` is the number for the whole run, and `steps` that of covers, too.
-  bool has_usual_renewal = false;  ///< `follower.renewed` is the usual number; 0 for a mesh that is not closed.
-  bool from_rest = false;          ///< Each frame is computed from the rest pose alone.
-  bool tighten = false;            ///< A cover is divided anew in each frame.
-  double grown = 1.25;             ///< A ball of a cover beyond so many times its radius at rest counts as grown.
+  FollowerOptions follower;  ///< `threads` is the number for the whole run, and `steps` that of covers, too.
+  /// Nothing was said of balls chosen anew: none is if the mesh at rest has no known volume.
+  bool has_usual_renewal = false;
+  bool from_rest = false;  ///< Each frame is computed from the rest pose alone.
+  bool tighten = false;    ///< A cover is divided anew in each frame.
+  double grown = 1.25;     ///< A ball of a cover beyond so many times its radius at rest counts as grown.
 
   /// REST.follow.npz is the only output, because none was named.
   bool has_usual_output = false;

@@ -196,10 +196,9 @@ Status check_both(const SpheresOptions& options, const Given& given) {
   if (!options.both) return {};
   if (file_extension(options.input) == ".urdf") {
     return usage_error(
-        "--contract both makes a body of one mesh. The bodies of a robot's links are made and kept by medial-vk "
-        "clearance "
-        "ROBOT.urdf --joints FILE.csv --balls N --bodies FOLDER; spheres for its links have --contract inside or "
-        "cover");
+        "--contract both makes a body of one mesh. For the bodies of a robot's links use medial-vk clearance "
+        "ROBOT.urdf "
+        "--joints FILE.csv --balls N --bodies FOLDER; for spheres of its links use --contract inside or cover");
   }
   const std::pair<const char*, bool> of_one_set[] = {{"--each", options.each},
                                                      {"--levels", options.spheres.levels},

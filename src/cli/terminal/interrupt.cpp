@@ -12,14 +12,15 @@
 namespace medial_vk::cli {
 namespace {
 
-std::atomic<bool> stop_requested{false}, may_end_at_once{false}, on_terminal{false};
+std::atomic<bool> stop_requested{false}, may_end_at_once{false}, on_terminal{false}, has_kept_bodies{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch lock-free atomics only");
 
 /// Calls only functions allowed in a handler: write() and _exit().
 [[noreturn]] void end_at_once() {
-  constexpr std::string_view kMessage = "\nmedial-vk: interrupted; nothing was written\n";
+  constexpr std::string_view kNothing = "\nmedial-vk: interrupted; nothing was written\n";
+  constexpr std::string_view kBodies = "\nmedial-vk: interrupted; the bodies are kept, and nothing else was written\n";
   // On a terminal, below the line on which the shell has shown ^C.
-  const std::string_view message = kMessage.substr(on_terminal ? 0 : 1);
+  const std::string_view message = (has_kept_bodies ? kBodies : kNothing).substr(on_terminal ? 0 : 1);
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, message.data(), message.size());
   ::_exit(exit_code(ErrorCode::kInterrupted));
 }
@@ -56,6 +57,8 @@ bool interrupted() { return stop_requested; }
 void end_if_interrupted() {
   if (stop_requested) end_at_once();
 }
+
+void tell_of_kept_bodies() { has_kept_bodies = true; }
 
 EndAtOnce::EndAtOnce() { may_end_at_once = true; }
 EndAtOnce::~EndAtOnce() { may_end_at_once = false; }

@@ -8,6 +8,10 @@ bool interrupted();
 /// Ends the program if a signal has arrived, with the message and exit code of EndAtOnce.
 void end_if_interrupted();
 
+/// From here on the message of EndAtOnce says that bodies were kept: `medial-vk clearance` writes them before it goes
+/// on.
+void tell_of_kept_bodies();
+
 /// While an object exists, the first signal also ends the program at once, with a message and exit code 130. It is for
 /// work that has nothing to undo and cannot be stopped half-way, such as a wait for input that does not come. Signals
 /// before construction are not handled here: call interrupted() after construction.

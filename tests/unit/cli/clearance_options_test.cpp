@@ -107,6 +107,7 @@ TEST(ClearanceOptions, BallsOfLinks) {
   EXPECT_THAT(clearance_message(with({"--bodies", "kept"})), HasSubstr("--bodies is about the balls"));
   EXPECT_THAT(clearance_message(with({"--decide"})), HasSubstr("use it with --balls N"));
   EXPECT_THAT(clearance_message(with({"--balls", "9", "--bodies", "-"})), HasSubstr("'-' is no folder"));
+  EXPECT_THAT(clearance_message(with({"--balls", "9", "--bodies", ""})), HasSubstr("the name of the folder is empty"));
   EXPECT_THAT(clearance_message(with({"--backend", "cpu"})), HasSubstr("use them with --balls N"));
   EXPECT_THAT(clearance_message(with({"--resolution", "9"})), HasSubstr("use them with --balls N"));
   EXPECT_THAT(clearance_message(with({"--device", "1"})), HasSubstr("use them with --balls N"));

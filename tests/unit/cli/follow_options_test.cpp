@@ -80,9 +80,12 @@ TEST(FollowOptions, BallsChosenAnew) {
   EXPECT_EQ(parsed_follow({"r.obj", "a.obj", "--renew", "25"}).follower.renewal_factor, 1.5);
   EXPECT_EQ(parsed_follow({"r.glb", "--rig", "a.json", "--renew", "0"}).follower.renewed, 0u);
   EXPECT_FALSE(options.has_usual_renewal);
-  const FollowOptions usual = parsed_follow({"r.obj", "a.obj", "--renew-factor", "2"});
+  const FollowOptions usual = parsed_follow({"r.obj", "a.obj"});
   EXPECT_TRUE(usual.has_usual_renewal);
   EXPECT_EQ(usual.follower.renewed, kUsualRenewed);
+  const FollowOptions with_factor = parsed_follow({"r.obj", "a.obj", "--renew-factor", "2"});
+  EXPECT_FALSE(with_factor.has_usual_renewal);
+  EXPECT_EQ(with_factor.follower.renewed, kUsualRenewed);
   for (const std::vector<std::string>& none :
        std::vector<std::vector<std::string>>{{"r.glb", "--rig", "a.json"},
                                              {"r.obj", "a.obj", "--rule", "published"},

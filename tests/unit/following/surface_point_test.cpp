@@ -61,6 +61,8 @@ TEST_F(CarriedDirection, APlaneThroughAPointStaysThePlaneThroughItsImage) {
 TEST_F(CarriedDirection, WithoutAnAreaItStays) {
   const Corners3 flat = {Point{0, 0, 0}, Point{1, 0, 0}, Point{2, 0, 0}};
   const Point direction = random_direction();
+  EXPECT_FALSE(carried_by_triangle(direction, random_triangle(), 1, flat, 1));
+  EXPECT_FALSE(carried_by_triangle(direction, flat, 1, random_triangle(), 1));
   EXPECT_EQ(carried_direction(direction, random_triangle(), 1, flat, 1), direction);
   EXPECT_EQ(carried_direction(direction, flat, 1, random_triangle(), 1), direction);
 }
