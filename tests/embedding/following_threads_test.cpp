@@ -98,16 +98,20 @@ void expect_same_bytes(const BallsOfFrames& a, const BallsOfFrames& b) {
   }
 }
 
+template <class Make>
+void expect_same_in_parallel(const Moving& moving, const Make& make) {
+  const BallsOfFrames one_by_one = follow_on_threads(moving, 1, make);
+  expect_same_bytes(follow_on_threads(moving, kFollowingThreads, make), one_by_one);
+  EXPECT_NE(std::memcmp(one_by_one[0].data(), one_by_one[1].data(), kBallCount * sizeof(Ball)), 0);
+}
+
 TEST(FollowingThreads, FramesFromRestAreTheSameInParallel) {
   const Moving moving;
   const std::vector<Ball> balls = balls_on_the_axis(0.35);
   FollowerOptions options;
   options.steps = 1;
   options.threads = 1;
-  const auto make = [&] { return Follower::create(moving.mesh, balls, options).value(); };
-  const BallsOfFrames one_by_one = follow_on_threads(moving, 1, make);
-  expect_same_bytes(follow_on_threads(moving, kFollowingThreads, make), one_by_one);
-  EXPECT_NE(std::memcmp(one_by_one[0].data(), one_by_one[1].data(), kBallCount * sizeof(Ball)), 0);
+  expect_same_in_parallel(moving, [&] { return Follower::create(moving.mesh, balls, options).value(); });
 }
 
 TEST(FollowingThreads, CoversAreTheSameInParallel) {
@@ -116,10 +120,7 @@ TEST(FollowingThreads, CoversAreTheSameInParallel) {
   CoverFollowerOptions options;
   options.steps = 1;
   options.threads = 1;
-  const auto make = [&] { return CoverFollower::create(moving.mesh, balls, options).value(); };
-  const BallsOfFrames one_by_one = follow_on_threads(moving, 1, make);
-  expect_same_bytes(follow_on_threads(moving, kFollowingThreads, make), one_by_one);
-  EXPECT_NE(std::memcmp(one_by_one[0].data(), one_by_one[1].data(), kBallCount * sizeof(Ball)), 0);
+  expect_same_in_parallel(moving, [&] { return CoverFollower::create(moving.mesh, balls, options).value(); });
 }
 
 }  // namespace

@@ -232,6 +232,13 @@ std::vector<Point> bent(const IndexedMesh& mesh, int frame) {
   return vertices;
 }
 
+/// In, or around, the tube of a torus.
+std::vector<Ball> balls_on_a_circle(double radius) {
+  std::vector<Ball> balls;
+  for (int i = 0; i < 80; ++i) balls.push_back({{std::cos(0.08 * i), std::sin(0.08 * i), 0}, radius});
+  return balls;
+}
+
 /// True if the update has allocated, on this thread.
 template <class AnyFollower>
 bool allocates(AnyFollower& follower, const std::vector<Point>& frame) {
@@ -246,11 +253,7 @@ bool allocates(AnyFollower& follower, const std::vector<Point>& frame) {
 // measure write to the memory of earlier ones.
 TEST(FramesOfBalls, AllocateNothing) {
   const IndexedMesh mesh = indexed(prepare(make_torus(1.0, 0.4, 24, 12)));
-  std::vector<Ball> balls;
-  for (int i = 0; i < 80; ++i) {
-    const double angle = 0.08 * i;
-    balls.push_back({{std::cos(angle), std::sin(angle), 0}, 0.3});
-  }
+  const std::vector<Ball> balls = balls_on_a_circle(0.3);
   struct Case {
     FollowRule rule;
     unsigned threads;
@@ -286,11 +289,7 @@ TEST(FramesOfBalls, AllocateNothing) {
 // Likewise covers whose cavities are not searched for.
 TEST(FramesOfCovers, AllocateNothing) {
   const IndexedMesh mesh = indexed(prepare(make_torus(1.0, 0.4, 24, 12)));
-  std::vector<Ball> balls;
-  for (int i = 0; i < 80; ++i) {
-    const double angle = 0.08 * i;
-    balls.push_back({{std::cos(angle), std::sin(angle), 0}, 0.5});
-  }
+  const std::vector<Ball> balls = balls_on_a_circle(0.5);
   struct Case {
     unsigned threads;
     std::uint32_t steps;

@@ -1,7 +1,6 @@
 #include "follower_jobs/rest_balls.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <limits>

@@ -100,7 +100,7 @@ Status MovingSurface::return_to_rest(unsigned threads) {
 Point MovingSurface::carried_by_all(const Point& direction, const SurfacePoint& at, std::span<const Point> from,
                                     double from_front) const {
   const auto image_by = [&](std::uint32_t triangle) {
-    return carried_by_triangle(direction, corners_of(from, triangle), from_front, corners(triangle), front_);
+    return carried_direction(direction, corners_of(from, triangle), from_front, corners(triangle), front_);
   };
   if (at.is_within_face()) return image_by(at.triangle).value_or(direction);
   const auto [first, second] = side_of(at, triangles()[at.triangle]);

@@ -67,11 +67,9 @@ class MovingSurface {
   double longest_side() const { return longest_side_; }
   /// Of the rest pose.
   double rest_side() const { return rest_.longest_side(); }
-  /// That of a closed mesh, by its triangles; positive in a mirrored frame, too.
-  double volume() const { return volume_; }
-  /// volume(), if it can be that of the solid, of which at least `least` and at most `most` is proved; otherwise NaN:
-  /// the mesh is not closed, the volume is no more than rounding, or parts with winding numbers of both signs, or of
-  /// more than 1, count in it.
+  /// The volume by the triangles, positive in a mirrored frame, too, if it can be that of the solid, of which at least
+  /// `least` and at most `most` is proved; otherwise NaN: the mesh is not closed, the volume is no more than rounding,
+  /// or parts with winding numbers of both signs, or of more than 1, count in it.
   double solid_volume(double least, double most) const;
 
   bool is_closed() const { return rest_.prepared().report.closed; }
@@ -93,7 +91,7 @@ class MovingSurface {
   Point carried_by_all(const Point& direction, const SurfacePoint& at, std::span<const Point> from,
                        double from_front) const;
   Status measure(unsigned threads);
-  /// An upper bound of the rounding error of volume().
+  /// An upper bound of the rounding error of volume_.
   double volume_rounding() const;
 
   IndexedMesh rest_;

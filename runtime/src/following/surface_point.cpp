@@ -65,8 +65,8 @@ Point inward_normal_of(const Corners3& corners, double front) {
   return size > 0 ? (-front / size) * area : area;
 }
 
-std::optional<Point> carried_by_triangle(const Point& direction, const Corners3& corners, double front,
-                                         const Corners3& new_corners, double new_front) {
+std::optional<Point> carried_direction(const Point& direction, const Corners3& corners, double front,
+                                       const Corners3& new_corners, double new_front) {
   const Frame from = frame_of(corners, front), to = frame_of(new_corners, new_front);
   if (!from.has_area || !to.has_area) return std::nullopt;
   const Point image = dot(direction, from.ab) * to.dual_ab + dot(direction, from.ac) * to.dual_ac +
@@ -74,11 +74,6 @@ std::optional<Point> carried_by_triangle(const Point& direction, const Corners3&
   const double size = length(image);
   if (!(size > 0)) return std::nullopt;
   return (1 / size) * image;
-}
-
-Point carried_direction(const Point& direction, const Corners3& corners, double front, const Corners3& new_corners,
-                        double new_front) {
-  return carried_by_triangle(direction, corners, front, new_corners, new_front).value_or(direction);
 }
 
 }  // namespace medial_vk

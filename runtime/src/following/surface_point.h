@@ -40,11 +40,7 @@ Point inward_normal_of(const Corners3& corners, double front);
 /// The inward normal of the surface, by its component along that of a triangle: the image of a unit vector under F^-T,
 /// with F the map of the triangle and its inward unit normal from one frame to the next, of length 1. `front` as above,
 /// in either frame. None by a triangle that has no area in one of the frames.
-std::optional<Point> carried_by_triangle(const Point& direction, const Corners3& corners, double front,
-                                         const Corners3& new_corners, double new_front);
-
-/// The same, but a triangle without an area leaves the direction as it is.
-Point carried_direction(const Point& direction, const Corners3& corners, double front, const Corners3& new_corners,
-                        double new_front);
+std::optional<Point> carried_direction(const Point& direction, const Corners3& corners, double front,
+                                       const Corners3& new_corners, double new_front);
 
 }  // namespace medial_vk

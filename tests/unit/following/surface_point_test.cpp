@@ -35,7 +35,7 @@ class CarriedDirection : public testing::Test {
 TEST_F(CarriedDirection, TheNormalOfATriangleBecomesItsNewNormal) {
   for (int i = 0; i < 1000; ++i) {
     const Corners3 from = random_triangle(), to = random_triangle();
-    const Point carried = carried_direction(inward_normal(from), from, 1, to, 1);
+    const Point carried = carried_direction(inward_normal(from), from, 1, to, 1).value();
     EXPECT_LE(length(carried - inward_normal(to)), 1e-9);
   }
 }
@@ -44,7 +44,7 @@ TEST_F(CarriedDirection, APlaneThroughAPointStaysThePlaneThroughItsImage) {
   // F^-T of a normal is the normal of the image of a plane under F: products with images of vectors in it are 0.
   for (int i = 0; i < 1000; ++i) {
     const Corners3 from = random_triangle(), to = random_triangle();
-    const Point direction = random_direction(), carried = carried_direction(direction, from, 1, to, 1);
+    const Point direction = random_direction(), carried = carried_direction(direction, from, 1, to, 1).value();
     const Point in_plane = cross(direction, inward_normal(from));  // in the plane, and in that of the triangle
     // The coordinates of in_plane along the edges.
     const Point ab = from[1] - from[0], ac = from[2] - from[0];
@@ -58,13 +58,11 @@ TEST_F(CarriedDirection, APlaneThroughAPointStaysThePlaneThroughItsImage) {
   }
 }
 
-TEST_F(CarriedDirection, WithoutAnAreaItStays) {
+TEST_F(CarriedDirection, WithoutAnAreaThereIsNone) {
   const Corners3 flat = {Point{0, 0, 0}, Point{1, 0, 0}, Point{2, 0, 0}};
   const Point direction = random_direction();
-  EXPECT_FALSE(carried_by_triangle(direction, random_triangle(), 1, flat, 1));
-  EXPECT_FALSE(carried_by_triangle(direction, flat, 1, random_triangle(), 1));
-  EXPECT_EQ(carried_direction(direction, random_triangle(), 1, flat, 1), direction);
-  EXPECT_EQ(carried_direction(direction, flat, 1, random_triangle(), 1), direction);
+  EXPECT_FALSE(carried_direction(direction, random_triangle(), 1, flat, 1));
+  EXPECT_FALSE(carried_direction(direction, flat, 1, random_triangle(), 1));
 }
 
 TEST_F(CarriedDirection, PointsKeepTheirCoordinates) {
