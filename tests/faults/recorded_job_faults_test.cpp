@@ -234,8 +234,10 @@ std::vector<Point> bent(const IndexedMesh& mesh, int frame) {
 
 /// In, or around, the tube of a torus.
 std::vector<Ball> balls_on_a_circle(double radius) {
+  constexpr int kBalls = 80;
   std::vector<Ball> balls;
-  for (int i = 0; i < 80; ++i) balls.push_back({{std::cos(0.08 * i), std::sin(0.08 * i), 0}, radius});
+  balls.reserve(kBalls);
+  for (int i = 0; i < kBalls; ++i) balls.push_back({{std::cos(0.08 * i), std::sin(0.08 * i), 0}, radius});
   return balls;
 }
 
