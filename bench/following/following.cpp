@@ -1,5 +1,6 @@
 // Balls that follow a mesh through five motions of 20 frames: rows of a table.
-//   bench_following [--frames N] [--repeats N] [--threads N] [--motion NAME] [--fresh | --extract N] MESH BALLS.csv
+//   bench_following [--frames N] [--repeats N] [--threads N] [--motion NAME] [--rule NAME] [--fresh | --extract N]
+//                   MESH BALLS.csv
 // For each motion and rule: the share of the solid's volume that is in no ball at its end, the greatest one of any
 // frame there and back, that where the last frame is computed from the rest pose at once, and that after the way back;
 // for the published rule the bound of Lemma 7.3 and the share outside the solid, by samples, of its last frame; the
@@ -161,7 +162,7 @@ std::string fresh_points(const IndexedMesh& mesh, int resolution, Context& conte
 
 int main(int argc, char** argv) {
   CLI::App app{"Balls that follow a mesh"};
-  std::string mesh_file, ball_file, only;
+  std::string mesh_file, ball_file, only, only_rule;
   int frames = 20, repeats = 1, resolution = 0;
   bool fresh = false;
   unsigned threads = 0;
@@ -169,6 +170,7 @@ int main(int argc, char** argv) {
   app.add_option("--repeats", repeats)->check(CLI::PositiveNumber);
   app.add_option("--threads", threads);
   app.add_option("--motion", only);
+  app.add_option("--rule", only_rule);
   CLI::Option* fit = app.add_flag("--fresh", fresh);
   app.add_option("--extract", resolution)->check(CLI::PositiveNumber)->excludes(fit);
   app.add_option("MESH", mesh_file)->required();
@@ -184,6 +186,9 @@ int main(int argc, char** argv) {
     std::string again;
     if (fresh) again = fresh_fit(moved_mesh(mesh, moved.back()), balls.size(), *context);
     if (resolution > 0) again = fresh_points(moved_mesh(mesh, moved.back()), resolution, *context);
-    for (const Rule& rule : kRules) follow(name_of(motion), rule, mesh, balls, moved, repeats, again, threads);
+    for (const Rule& rule : kRules) {
+      if (!only_rule.empty() && only_rule != rule.name) continue;
+      follow(name_of(motion), rule, mesh, balls, moved, repeats, again, threads);
+    }
   }
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,9 +23,14 @@ class WideTree {
   /// Follows Bvh::refit(). Allocates nothing.
   void refit(const Bvh& bvh);
   BvhHit closest(const Bvh& bvh, const Point& p, double bound = std::numeric_limits<double>::infinity()) const;
+  /// Writes the leaf positions of all triangles within `radius` of p, and of few beyond, and returns their number; none
+  /// where they are too many, or p is too far away for products of floats.
+  std::optional<std::size_t> gather(const Point& p, double radius, std::span<std::uint32_t> positions) const;
 
  private:
   class Walk;
+  class NearestWalk;
+  class GatheringWalk;
   struct Ranges;
 
   static constexpr std::size_t kWidth = 8;

@@ -1,6 +1,7 @@
 #include "following/greatest_ball.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -21,17 +22,22 @@ namespace {
 /// From a ball of this radius.
 TrackedBall shrunk_ball(const MovingSurface& surface, const BallContact& contact, const SurfacePoint& other,
                         double radius) {
-  constexpr int kMostSteps = 64;  // each but the last shrinks the ball onto another contact; few are needed
+  constexpr std::size_t kMostGathered = 64;  // triangles
+  constexpr int kMostSteps = 64;             // each but the last shrinks the ball onto another contact; few are needed
   const Point at = surface.at(contact.on);
   const double slack = contact_slack(surface);
   TrackedBall tracked;
   tracked.a = contact;
   tracked.b.on = other;
   double empty = 0;
-  Point centre = at;
+  Point centre = at + radius * contact.towards_centre;
+  // Each ball holds the next ones: they touch at the same point, and the slack is more than the rounding of centres.
+  std::array<std::uint32_t, kMostGathered> room;
+  const auto gathered = surface.gather(centre, radius, room);
   for (int step = 0; step < kMostSteps; ++step) {
     centre = at + radius * contact.towards_centre;
-    const BvhHit nearer = surface.closest(centre, radius - slack);
+    const BvhHit nearer =
+        gathered ? surface.closest_of(*gathered, centre, radius - slack) : surface.closest(centre, radius - slack);
     if (nearer.triangle == BvhHit().triangle) {
       empty = radius - slack;
       break;

@@ -131,6 +131,14 @@ Status MovingSurface::measure(unsigned threads) {
   return {};
 }
 
+BvhHit MovingSurface::closest_of(std::span<const std::uint32_t> positions, const Point& p, double bound) const {
+  BvhHit best;
+  best.squared_distance = bound > 0 ? bound * bound : 0.0;
+  best = medial_vk::closest_of(bvh_, p, positions, best);
+  if (best.triangle == BvhHit().triangle) best.squared_distance = std::numeric_limits<double>::infinity();
+  return best;
+}
+
 std::vector<BvhHit> MovingSurface::within(const Point& p, double radius) const {
   std::vector<std::uint32_t> positions;
   gather_within(bvh_, p, radius, positions);

@@ -60,6 +60,15 @@ class MovingSurface {
 
   /// The nearest point of the boundary, if it is closer than `bound`.
   BvhHit closest(const Point& p, double bound) const { return wide_.closest(bvh_, p, bound); }
+  /// The leaf positions of all triangles within `radius` of p, and of few beyond, for closest_of(); none where they are
+  /// too many.
+  std::optional<std::span<const std::uint32_t>> gather(const Point& p, double radius,
+                                                       std::span<std::uint32_t> room) const {
+    const std::optional<std::size_t> count = wide_.gather(p, radius, room);
+    return count ? std::optional<std::span<const std::uint32_t>>(room.first(*count)) : std::nullopt;
+  }
+  /// As closest(), among these triangles.
+  BvhHit closest_of(std::span<const std::uint32_t> positions, const Point& p, double bound) const;
   /// The nearest points of all triangles that are not farther than `radius`. Throws std::bad_alloc.
   std::vector<BvhHit> within(const Point& p, double radius) const;
   /// The error of a distance at a point within one longest side of the box.

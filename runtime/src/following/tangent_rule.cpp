@@ -34,16 +34,25 @@ TrackedBall ball_between(const MovingSurface& surface, const BallContact& a, con
   return greatest_ball_at(surface, guess, a.on, b.on);
 }
 
+/// Infinite where the point is not known.
 double squared_distance(const MovingSurface& surface, const Point& from, const SurfacePoint& to) {
+  if (!to.is_known()) return std::numeric_limits<double>::infinity();
   const Point between = surface.at(to) - from;
   return dot(between, between);
+}
+
+/// The surface is nearer than this to `guess`: one of both points lies on it, up to rounding.
+double bound_of_distance(const MovingSurface& surface, const Point& guess, const SurfacePoint& a,
+                         const SurfacePoint& b) {
+  const double squared = std::min(squared_distance(surface, guess, a), squared_distance(surface, guess, b));
+  return (1 + 0x1p-40) * std::sqrt(squared) + 4 * surface.rounding();
 }
 
 }  // namespace
 
 TrackedBall greatest_ball_at(const MovingSurface& surface, const Point& guess, const SurfacePoint& a,
                              const SurfacePoint& b) {
-  const BvhHit nearest = surface.closest(guess, std::numeric_limits<double>::infinity());
+  const BvhHit nearest = surface.closest(guess, bound_of_distance(surface, guess, a, b));
   if (nearest.triangle == BvhHit().triangle) return {};  // the guess is no number
   const double distance = std::sqrt(nearest.squared_distance);
   if (!(distance > 2 * surface.rounding())) return {};

@@ -1,13 +1,18 @@
 // The tree with eight children a node gives the answers of the tree that it was made of.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
+#include <set>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "base/point_ops.h"
+#include "bvh/triangle_distance.h"
 #include "bvh/wide_tree.h"
 #include "support/solids/motions.h"
 #include "support/solids/solids.h"
@@ -121,6 +126,49 @@ TEST(WideTree, FollowsARefit) {
     wide.refit(bvh);
     expect_same(bvh, wide, points_around(moved), test::name_of(motion));
   }
+}
+
+double distance_of(const Bvh& bvh, const Point& p, std::size_t position) {
+  return std::sqrt(nearest_on_triangle(p, bvh.corners()[position]).squared_distance);
+}
+
+/// Limits exceed radii by less than 2^-18 of the lengths involved, and bounds of distances have errors below 2^-19 of
+/// them: WideTree::Walk.
+TEST(WideTree, GathersTheTrianglesWithinARadius) {
+  const Mesh mesh = test::make_turned_torus(40, 20);
+  const Bvh bvh = Bvh::build(test::view_of(mesh), {4, 1}).value();
+  const WideTree wide(bvh);
+  const BvhBox& box = bvh.nodes().front().box;
+  std::vector<std::uint32_t> room(bvh.order().size());
+  std::size_t missed = 0, beyond = 0, gathered = 0;
+  for (const Point& p : points_around(mesh)) {
+    const double far = length(box.upper - box.lower) + length(p - box.lower);
+    for (const double factor : {0.9, 1.0 + 1e-12, 1.3}) {
+      const double radius = factor * std::sqrt(bvh.closest(p).squared_distance) + 1e-12 * far;
+      const std::optional<std::size_t> count = wide.gather(p, radius, room);
+      if (!count) continue;  // too far for floats
+      const std::set<std::uint32_t> found(room.begin(), room.begin() + static_cast<std::ptrdiff_t>(*count));
+      EXPECT_EQ(found.size(), *count);
+      gathered += *count;
+      for (std::uint32_t i = 0; i < bvh.order().size(); ++i) {
+        missed += distance_of(bvh, p, i) <= radius && !found.contains(i) ? 1 : 0;
+        beyond += distance_of(bvh, p, i) > radius + 0x1p-17 * far && found.contains(i) ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_EQ(missed, 0u);
+  EXPECT_EQ(beyond, 0u);
+  EXPECT_GT(gathered, 1000u);
+}
+
+TEST(WideTree, GathersNoneWithoutRoomForAll) {
+  const Bvh bvh = Bvh::build(test::view_of(test::make_box({1, 1, 1})), {4, 1}).value();
+  const WideTree wide(bvh);
+  std::array<std::uint32_t, 12> room;
+  EXPECT_EQ(wide.gather({0.5, 0.5, 0.5}, 2, room), 12u);
+  EXPECT_EQ(wide.gather({0.5, 0.5, 0.5}, 2, std::span(room).first(11)), std::nullopt);
+  EXPECT_EQ(wide.gather({1e20, 0, 0}, 1e21, room), std::nullopt);
+  EXPECT_EQ(wide.gather({0.5, 0.5, 0.5}, 0.1, room), 0u);
 }
 
 }  // namespace
