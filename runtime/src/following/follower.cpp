@@ -207,12 +207,14 @@ class Follower::Impl {
     return 1 - balls.volume / surface_.solid_volume(balls.volume, kAnyVolume);
   }
 
-  /// Where the uncovered share has grown, balls leave for gaps.
+  /// Where the uncovered share has grown, balls leave for gaps. Most frames need the volume alone, which costs no list
+  /// of neighbours and no memory.
   Status renew() {
-    if (Status status = measure_present(true); !status) return status;
+    if (!(rest_share_ > 0)) return {};
+    if (Status status = measure_present(false); !status) return status;
+    if (!(uncovered_share(measurer_.result()) > options_.renewal_factor * rest_share_)) return {};
+    if (Status status = measurer_.measure(present_, true, pool_); !status) return status;
     const BallUnion& measured = measurer_.result();
-    const bool has_grown = uncovered_share(measured) > options_.renewal_factor * rest_share_;
-    if (!has_grown || !(rest_share_ > 0)) return {};
     const Result<std::vector<BallExchange>> exchanges =
         find_exchanges(surface_, present_, measured, options_.renewed, options_.threads);
     if (!exchanges) return exchanges.error();
