@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/quoted.h"
 #include "base/stopwatch.h"
 #include "cli/follow/follow_balls.h"
 #include "cli/follow/follow_rig.h"
@@ -315,9 +316,14 @@ class FollowRun {
   std::vector<OutputFile> files_;
 };
 
-/// A pattern without further meshes stands for all of them.
+/// A pattern without further meshes stands for all of them; beside others it cannot be the rest pose.
 Result<FollowOptions> with_named_files(const FollowOptions& options) {
-  if (!options.frames.empty() || !is_frame_pattern(options.rest)) return options;
+  if (!is_frame_pattern(options.rest)) return options;
+  if (!options.frames.empty()) {
+    return Error{ErrorCode::kUsage, fmt::format("{} stands for several files, and the rest pose is one: a pattern is "
+                                                "the only mesh, or comes after REST",
+                                                medial_vk::quoted(options.rest))};
+  }
   const Result<std::vector<std::string>> files = files_of_pattern(options.rest);
   if (!files) return files.error();
   return with_files_of_pattern(options, files.value());
