@@ -101,8 +101,9 @@ TEST_F(FollowCommand, PatternsStandForTheirFilesInOrder) {
 TEST_F(FollowCommand, APatternAsRestPoseStandsAlone) {
   const ToolResult result = follow({"box_*.obj", "box_1.obj", "--balls", "balls.csv", "-q"});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, testing::HasSubstr("box_*.obj' stands for several files, and the rest pose is one: a pattern "
-                                             "is the only mesh, or comes after REST"));
+  EXPECT_THAT(result.err,
+              testing::HasSubstr("\"box_*.obj\" stands for several files, and the rest pose is one: a pattern "
+                                 "is the only mesh, or comes after REST"));
 }
 
 TEST_F(FollowCommand, APatternAloneBeginsWithTheRestPose) {
