@@ -1,6 +1,8 @@
 // Every call of Vulkan that can fail does so once, in the jobs that a host records.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -288,22 +290,44 @@ TEST(FramesOfBalls, AllocateNothing) {
   }
 }
 
-// Likewise covers whose cavities are not searched for.
+/// Along the boundary of a cube of side 2, whose middle they leave out, and one of radius 0, for which there is a
+/// place.
+std::vector<Ball> balls_around_a_cavity() {
+  constexpr double kCell = 0.4;
+  std::vector<Ball> balls;
+  for (const int x : {0, 1, 2, 3, 4, 5}) {
+    for (const int y : {0, 1, 2, 3, 4, 5}) {
+      for (const int z : {0, 1, 2, 3, 4, 5}) {
+        const bool is_outer = std::ranges::any_of(std::array{x, y, z}, [](int k) { return k == 0 || k == 5; });
+        if (is_outer) balls.push_back({{kCell * x, kCell * y, kCell * z}, 0.9 * kCell});
+      }
+    }
+  }
+  balls.push_back({{5, 5, 5}, 0});
+  return balls;
+}
+
+// Likewise covers, whether or not there are cavities to be searched for and filled.
 TEST(FramesOfCovers, AllocateNothing) {
-  const IndexedMesh mesh = indexed(prepare(make_torus(1.0, 0.4, 24, 12)));
-  const std::vector<Ball> balls = balls_on_a_circle(0.5);
+  const IndexedMesh torus = indexed(prepare(make_torus(1.0, 0.4, 24, 12)));
+  const IndexedMesh box = indexed(prepare(make_box({2, 2, 2})));
   struct Case {
+    bool surface_only, cavity;
     unsigned threads;
     std::uint32_t steps;
   };
-  for (const auto& [threads, steps] : {Case{1, 0}, Case{3, 0}, Case{1, 1}, Case{3, 2}}) {
-    SCOPED_TRACE(testing::Message() << threads << " threads, steps: " << steps);
+  for (const auto& [surface_only, cavity, threads, steps] :
+       {Case{true, false, 1, 0}, Case{true, false, 3, 0}, Case{true, false, 1, 1}, Case{true, false, 3, 2},
+        Case{false, false, 1, 0}, Case{false, false, 3, 2}, Case{false, true, 1, 0}, Case{false, true, 3, 1}}) {
+    SCOPED_TRACE(testing::Message() << threads << " threads, steps: " << steps << ", cavity: " << cavity);
+    const IndexedMesh& mesh = cavity ? box : torus;
     CoverFollowerOptions options;
-    options.surface_only = true;
+    options.surface_only = surface_only;
     options.threads = threads;
     options.steps = steps;
-    CoverFollower follower = CoverFollower::create(mesh, balls, options).value();
-    const int motions = steps > 0 ? 3 : 1;
+    CoverFollower follower =
+        CoverFollower::create(mesh, cavity ? balls_around_a_cavity() : balls_on_a_circle(0.5), options).value();
+    const int motions = steps > 0 || !surface_only ? 3 : 1;
     for (int motion = 1; motion <= motions; ++motion) {
       for (int frame = 0; frame < 10; ++frame) {
         const std::vector<Point> vertices = bent(mesh, frame);
@@ -312,6 +336,8 @@ TEST(FramesOfCovers, AllocateNothing) {
         } else {
           EXPECT_TRUE(in_runtime([&] { return follower.update(vertices); }).ok());
         }
+        EXPECT_EQ(follower.state(), surface_only ? CoverState::kSurface : CoverState::kSolid);
+        EXPECT_TRUE(!cavity || follower.balls().back().radius > 0) << "no cavity was filled";
       }
     }
     fail_new(1);

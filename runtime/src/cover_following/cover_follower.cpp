@@ -171,9 +171,9 @@ class CoverFollower::Impl {
   }
 
   /// Fills cavities. What all balls are then proved to hold.
-  Result<CoverState> hold(std::vector<Ball>& balls) const {
+  Result<CoverState> hold(std::vector<Ball>& balls) {
     if (options_.surface_only || !surface_.is_closed() || !has_usual_size(balls)) return CoverState::kSurface;
-    const Result<bool> filled = fill_cavities(surface_, balls, options_.threads);
+    const Result<bool> filled = cavities_.fill(surface_, balls, pool_);
     if (!filled) return filled.error();
     return filled.value() ? CoverState::kSolid : CoverState::kSurface;
   }
@@ -201,6 +201,7 @@ class CoverFollower::Impl {
   WorkerPool pool_;                  // of loops over balls, which come several times a frame
   std::vector<HeldCorners> memory_;  // by worker
   UnionMeasurer measurers_[2];       // of the present balls, and of those of the next step
+  CavitySearch cavities_;
   std::vector<Ball> present_, next_;
   std::shared_ptr<const CarriedBalls> rest_, carried_;  // of the rest pose; of the frame of the last tighten()
   std::vector<Ball> balls_;

@@ -14,6 +14,9 @@ class SimplexCollector {
  public:
   void collect(const PowerCell& cell, const Ball& ball, DualComplex& complex, std::vector<EnvelopeVertex>& vertices);
 
+  /// So that it allocates nothing for cells that the other has taken.
+  void make_room_of(const SimplexCollector& other) { faces_.reserve(other.faces_.capacity()); }
+
  private:
   enum : std::uint8_t { kFootOutside = 1, kMeetsBall = 2 };
   void collect_edges(const PowerCell& cell, const Ball& ball, DualComplex& complex,

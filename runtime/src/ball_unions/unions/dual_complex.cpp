@@ -11,16 +11,15 @@ namespace {
 template <std::size_t N>
 void add_faces(const std::vector<std::array<std::uint32_t, N>>& simplices,
                std::vector<std::array<std::uint32_t, N - 1>>& faces) {
-  std::vector<std::array<std::uint32_t, N - 1>> missing;
+  const std::size_t known = faces.size();
   for (const auto& simplex : simplices) {
     for (std::size_t k = 0; k < N; ++k) {
       const auto side = face(simplex, k);
-      if (!std::binary_search(faces.begin(), faces.end(), side)) missing.push_back(side);
+      const auto end = faces.begin() + static_cast<std::ptrdiff_t>(known);
+      if (!std::binary_search(faces.begin(), end, side)) faces.push_back(side);
     }
   }
-  if (missing.empty()) return;
-  faces.insert(faces.end(), missing.begin(), missing.end());
-  sort_unique(faces);
+  if (faces.size() > known) sort_unique(faces);
 }
 
 class DisjointSets {
@@ -76,9 +75,7 @@ void make_complete(DualComplex& complex, std::vector<EnvelopeVertex>& vertices) 
   sort_unique(complex.tetrahedra);
   add_faces(complex.tetrahedra, complex.triangles);
   add_faces(complex.triangles, complex.edges);
-  std::vector<std::uint32_t> ends;
-  for (const auto& edge : complex.edges) ends.insert(ends.end(), edge.begin(), edge.end());
-  complex.vertices.insert(complex.vertices.end(), ends.begin(), ends.end());
+  for (const auto& edge : complex.edges) complex.vertices.insert(complex.vertices.end(), edge.begin(), edge.end());
   sort_unique(complex.vertices);
   std::sort(vertices.begin(), vertices.end(), [](const EnvelopeVertex& a, const EnvelopeVertex& b) {
     return std::pair(a.balls, a.at) < std::pair(b.balls, b.at);

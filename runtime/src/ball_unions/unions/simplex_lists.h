@@ -29,6 +29,14 @@ inline void append(DualComplex& all, const DualComplex& more) {
   append(all.tetrahedra, more.tetrahedra);
 }
 
+/// Without giving memory back.
+inline void clear(DualComplex& complex) {
+  complex.vertices.clear();
+  complex.edges.clear();
+  complex.triangles.clear();
+  complex.tetrahedra.clear();
+}
+
 /// A simplex without its vertex k.
 template <std::size_t N>
 std::array<std::uint32_t, N - 1> face(const std::array<std::uint32_t, N>& simplex, std::size_t k) {

@@ -27,6 +27,11 @@ std::size_t blocks_of(std::size_t balls) { return (balls + block_of(balls) - 1) 
 struct UnionMeasurer::Chunk {
   DualComplex complex;
   std::vector<EnvelopeVertex> vertices;
+
+  void clear() {
+    medial_vk::clear(complex);
+    vertices.clear();
+  }
 };
 
 UnionMeasurer::UnionMeasurer() = default;
@@ -50,8 +55,9 @@ void UnionMeasurer::measure_scaled(bool complex, WorkerPool& pool) {
   result_.volumes.assign(balls_.size(), 0);
   result_.areas.assign(balls_.size(), 0);
   result_.vectors.assign(balls_.size(), Point{0, 0, 0});
-  chunks_.clear();
-  if (complex) chunks_.resize(blocks_of(balls_.size()));
+  has_complex_ = complex;
+  while (complex && chunks_.size() < blocks_of(balls_.size())) chunks_.emplace_back();
+  for (Chunk& chunk : chunks_) chunk.clear();
   centres_.resize(balls_.size());
   std::ranges::transform(balls_, centres_.begin(), &Ball::centre);
   order_by_halving(centres_, order_);
@@ -68,15 +74,18 @@ void UnionMeasurer::measure_scaled(bool complex, WorkerPool& pool) {
 void UnionMeasurer::measure_by_triangulation(WorkerPool& pool) {
   while (cells_.size() < pool.threads()) cells_.push_back(std::make_unique<PowerCell>(triangulation_.balls()));
   for (const auto& cell : cells_) cell->use(triangulation_.balls());
+  while (collectors_.size() < pool.threads()) collectors_.push_back(std::make_unique<SimplexCollector>());
   pool.run(blocks_of(balls_.size()), 1, [&](std::size_t block, unsigned worker) {
     PowerCell& cell = *cells_[worker];
-    measure_block(block, [&](std::uint32_t i) -> const PowerCell& {
+    measure_block(block, *collectors_[worker], [&](std::uint32_t i) -> const PowerCell& {
       cell.start(i, triangulation_);
       cell.sharpen();
       return cell;
     });
   });
   share_room(cells_, [](PowerCell& cell, const PowerCell& of) { cell.make_room_of(of); });
+  const auto grow = [](SimplexCollector& collector, const SimplexCollector& of) { collector.make_room_of(of); };
+  if (has_complex_) share_room(collectors_, grow);
 }
 
 /// Each cell is cut by itself, from the balls around it.
@@ -84,15 +93,15 @@ void UnionMeasurer::measure_one_by_one(WorkerPool& pool) {
   const BallTree tree(balls_, pool.threads());
   pool.run(blocks_of(balls_.size()), 1, [&](std::size_t block) {
     CellBuilder builder(balls_, tree);
-    measure_block(block, [&](std::uint32_t i) -> const PowerCell& { return builder.build(i); });
+    SimplexCollector collector;
+    measure_block(block, collector, [&](std::uint32_t i) -> const PowerCell& { return builder.build(i); });
   });
 }
 
 template <class CellOf>
-void UnionMeasurer::measure_block(std::size_t block, const CellOf& cell_of) {
+void UnionMeasurer::measure_block(std::size_t block, SimplexCollector& collector, const CellOf& cell_of) {
   const std::size_t begin = block * block_of(balls_.size());
   const std::size_t end = std::min(begin + block_of(balls_.size()), balls_.size());
-  SimplexCollector collector;
   for (std::size_t n = begin; n < end; ++n) {
     const std::uint32_t i = order_[n];
     const Ball& ball = balls_[i];
@@ -102,14 +111,14 @@ void UnionMeasurer::measure_block(std::size_t block, const CellOf& cell_of) {
     result_.volumes[i] = part.volume;
     result_.areas[i] = part.area;
     result_.vectors[i] = part.area_vector;
-    if (!chunks_.empty()) collector.collect(cell, ball, chunks_[block].complex, chunks_[block].vertices);
+    if (has_complex_) collector.collect(cell, ball, chunks_[block].complex, chunks_[block].vertices);
   }
 }
 
 void UnionMeasurer::join_chunks() {
-  result_.complex = {};
+  clear(result_.complex);
   result_.vertices.clear();
-  if (chunks_.empty()) return;
+  if (!has_complex_) return;
   for (const Chunk& chunk : chunks_) {
     append(result_.complex, chunk.complex);
     append(result_.vertices, chunk.vertices);

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "ball_unions/cells/cell_simplices.h"
 #include "ball_unions/cells/power_cell.h"
 #include "ball_unions/triangulation/ball_insertion.h"
 #include "ball_unions/triangulation/regular_triangulation.h"
@@ -23,7 +24,7 @@ class UnionMeasurer {
   UnionMeasurer(const UnionMeasurer&) = delete;
   UnionMeasurer& operator=(const UnionMeasurer&) = delete;
 
-  /// measure_ball_union() on the threads of a pool. Without the dual complex it allocates nothing where the memory of
+  /// measure_ball_union() on the threads of a pool. It allocates nothing where the memory of
   /// the two calls before suffices, unless the balls have no triangulation of a linear size. The result is in result()
   /// until the next call. Errors: those of measure_ball_union(); result() is then undefined.
   Status measure(std::span<const Ball> balls, bool complex, WorkerPool& pool);
@@ -40,7 +41,7 @@ class UnionMeasurer {
   void measure_by_triangulation(WorkerPool& pool);
   void measure_one_by_one(WorkerPool& pool);
   template <class CellOf>
-  void measure_block(std::size_t block, const CellOf& cell_of);
+  void measure_block(std::size_t block, SimplexCollector& collector, const CellOf& cell_of);
   void join_chunks();
   void scale_back(double unit);
 
@@ -49,8 +50,10 @@ class UnionMeasurer {
   std::vector<std::uint32_t> order_;
   BallInsertion insertion_;
   RegularTriangulation triangulation_;
-  std::vector<std::unique_ptr<PowerCell>> cells_;  // by worker; each holds a table of all balls
-  std::vector<Chunk> chunks_;                      // by block of balls, if there is to be a complex
+  std::vector<std::unique_ptr<PowerCell>> cells_;              // by worker; each holds a table of all balls
+  std::vector<std::unique_ptr<SimplexCollector>> collectors_;  // by worker
+  std::vector<Chunk> chunks_;                                  // by block of balls, of a complex
+  bool has_complex_ = false;
   BallUnion result_;
 };
 

@@ -4,10 +4,10 @@
 #include "sphere_fits/cover/smallest_ball.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <vector>
 
 #include "base/point_ops.h"
 
@@ -17,6 +17,23 @@ namespace {
 constexpr double kSlack = 1e-12;  // relative
 constexpr int kRounds = 200;      // many times the usual number; a round without gain ends the loop earlier
 
+/// Up to five points; a frame of a motion allocates no memory for them.
+class FewPoints {
+ public:
+  FewPoints() = default;
+  FewPoints(const Point& a, const Point& b) : points_{a, b}, size_(2) {}
+
+  void push_back(const Point& p) { points_[size_++] = p; }
+  std::size_t size() const { return size_; }
+  const Point& operator[](std::size_t i) const { return points_[i]; }
+  const Point* begin() const { return points_.data(); }
+  const Point* end() const { return points_.data() + size_; }
+
+ private:
+  std::array<Point, 5> points_ = {};
+  std::size_t size_ = 0;
+};
+
 struct Sphere {
   Point centre{};
   double squared = std::numeric_limits<double>::infinity();
@@ -24,7 +41,7 @@ struct Sphere {
 
 /// The ball through all given points, two to four, with its centre in their affine hull. Infinite if they are no
 /// simplex.
-Sphere circumsphere(const std::vector<Point>& p) {
+Sphere circumsphere(const FewPoints& p) {
   Sphere sphere;
   const Point a = p[1] - p[0];
   if (p.size() == 2) {
@@ -50,7 +67,7 @@ Sphere circumsphere(const std::vector<Point>& p) {
   return sphere;
 }
 
-bool holds(const Sphere& sphere, const std::vector<Point>& points) {
+bool holds(const Sphere& sphere, const FewPoints& points) {
   return std::ranges::all_of(points, [&](const Point& p) {
     const Point d = p - sphere.centre;
     return dot(d, d) <= sphere.squared * (1 + 4 * kSlack);
@@ -59,11 +76,11 @@ bool holds(const Sphere& sphere, const std::vector<Point>& points) {
 
 /// The smallest ball of up to five points, by trials of all subsets; `points` becomes the subset that supports the
 /// ball.
-Sphere of_few(std::vector<Point>& points) {
+Sphere of_few(FewPoints& points) {
   Sphere best;
-  std::vector<Point> support, chosen;
+  FewPoints support;
   for (unsigned set = 1; set < (1u << points.size()); ++set) {
-    chosen.clear();
+    FewPoints chosen;
     for (std::size_t k = 0; k < points.size(); ++k) {
       if ((set >> k & 1u) != 0) chosen.push_back(points[k]);
     }
@@ -98,7 +115,7 @@ Ball smallest_ball(std::span<const Point> points) {
   double squared = 0;
   const std::size_t first = farthest(points, points[0], squared);
   if (squared == 0) return {points[0], 0};
-  std::vector<Point> support = {points[0], points[first]};
+  FewPoints support(points[0], points[first]);
   Sphere sphere = of_few(support);
   Point best = sphere.centre;
   double best_squared = std::numeric_limits<double>::infinity();
@@ -109,7 +126,7 @@ Ball smallest_ball(std::span<const Point> points) {
       best = sphere.centre;
     }
     if (squared <= sphere.squared * (1 + kSlack)) break;
-    std::vector<Point> with = support;
+    FewPoints with = support;
     with.push_back(points[out]);
     const Sphere next = of_few(with);
     if (!(next.squared > sphere.squared) || !std::isfinite(next.squared)) break;

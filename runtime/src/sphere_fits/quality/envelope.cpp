@@ -43,11 +43,11 @@ std::size_t meet(const Ball& a, const Ball& b, const Ball& c, double tolerance, 
   return 2;
 }
 
-Envelope::Envelope(std::span<const Ball> balls, BallUnion measured)
-    : tree_(balls),
-      union_(std::move(measured)),
-      tolerance_(1e-10 * magnitude_of(balls)),
-      distance_error_(4 * tolerance_) {
+void Envelope::find_vertices() {
+  const std::vector<Ball>& balls = tree_.balls();
+  tolerance_ = 1e-10 * magnitude_of(balls);
+  distance_error_ = 4 * tolerance_;
+  vertices_.clear();
   first_arc_.assign(balls.size() + 1, 0);
   for (const auto& edge : union_.complex.edges) ++first_arc_[edge[0] + 1];
   for (std::size_t i = 0; i < balls.size(); ++i) first_arc_[i + 1] += first_arc_[i];
@@ -76,35 +76,53 @@ void Envelope::add_vertices(const std::array<std::uint32_t, 3>& balls) {
   }
 }
 
-/// The residual of the equations of the three spheres, times the inverse of their directions; where they nearly touch,
-/// the root of it.
+/// docs/theory.md, "Cover", "Points of three spheres". 16 u times the lengths bound the rounding of a distance; those
+/// of the formulas below are less than 2^-40 of each result, but for the direction of the normal.
 double Envelope::error_of(const EnvelopeVertex& vertex) const {
-  std::array<Point, 3> directions;
-  double residual = 0, radius = 0;
+  double residual = 0, greatest = 0, least = std::numeric_limits<double>::infinity();
+  std::array<Point, 3> from;
   for (std::size_t k = 0; k < 3; ++k) {
     const Ball& ball = tree_.balls()[vertex.balls[k]];
-    const Point to = vertex.at - ball.centre;
-    const double distance = length(to);
-    if (!(distance > 0)) return std::numeric_limits<double>::infinity();
-    directions[k] = (1 / distance) * to;
-    residual = std::max(residual, std::fabs(distance - ball.radius));
-    radius = std::max(radius, ball.radius);
+    from[k] = ball.centre - vertex.at;
+    residual = std::max(residual, std::fabs(length(from[k]) - ball.radius));
+    greatest = std::max(greatest, ball.radius);
+    least = std::min(least, ball.radius);
   }
-  // The norm of the inverse is at most the root of the sum of the squares of its entries.
-  const Point yz = cross(directions[1], directions[2]), zx = cross(directions[2], directions[0]),
-              xy = cross(directions[0], directions[1]);
-  const double determinant = std::fabs(dot(directions[0], yz));
-  const double entries = std::sqrt(dot(yz, yz) + dot(zx, zx) + dot(xy, xy));
-  // Of parallel directions entries are 0, too.
-  const double inverse = determinant > 1e-300 ? entries / determinant : std::numeric_limits<double>::infinity();
-  const double left = residual + 16 * 0x1p-53 * (radius + length(vertex.at));
-  return std::min(2 * left * inverse, 4 * std::sqrt((left + 2 * tolerance_) * radius));
+  const double off = residual + 16 * 0x1p-53 * (greatest + length(vertex.at));
+  const double anywhere = 2 * least + off;  // both points lie on the smallest sphere
+  const auto centre = [&](std::size_t k) -> const Point& { return tree_.balls()[vertex.balls[k]].centre; };
+  double shorter = 0;
+  const Point normal = double_area(centre(0), centre(1), centre(2), shorter);
+  const double rounding = kAreaRounding * shorter, area = length(normal) - rounding;
+  if (!(area > 0)) return anywhere;
+  const std::array lengths = {length(centre(1) - centre(0)), length(centre(2) - centre(1)),
+                              length(centre(0) - centre(2))};
+  const double two_sides = lengths[0] + lengths[1] + lengths[2] - std::ranges::max(lengths);
+  const double squares = off * (2 * greatest + off);
+  const double across = squares * two_sides / area;
+  const double along = squares + across * (2 * (greatest + off) + across);
+  const double turn = 2 * rounding / area + 0x1p-50;  // of the normal, and the rounding of the product
+  const double height = std::fabs(dot(normal, from[0])) / length(normal) - turn * length(from[0]);
+  const double up = height > 0 ? std::min(std::sqrt(along), along / height) : std::sqrt(along);
+  return std::min((1 + 0x1p-40) * (across + up), anywhere);
 }
 
 Result<Envelope> Envelope::build(std::span<const Ball> balls, unsigned threads) {
   Result<BallUnion> measured = measure_ball_union(balls, {threads, true});
   if (!measured) return measured.error();
-  return Envelope(balls, std::move(measured).value());
+  Envelope envelope;
+  envelope.tree_.rebuild(balls);
+  envelope.union_ = std::move(measured).value();
+  envelope.find_vertices();
+  return envelope;
+}
+
+Status Envelope::rebuild(std::span<const Ball> balls, UnionMeasurer& measurer, WorkerPool& pool) {
+  if (Status status = measurer.measure(balls, true, pool); !status) return status;
+  tree_.rebuild(balls);
+  union_ = measurer.result();
+  find_vertices();
+  return {};
 }
 
 void Envelope::improve_on_arc(std::uint32_t ball, std::uint32_t other, const Point& p, double& best) const {

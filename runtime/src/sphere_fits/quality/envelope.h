@@ -6,9 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "ball_unions/unions/union_measurer.h"
 #include "medial_vk/ball_union.h"
 #include "medial_vk/result.h"
 #include "sphere_fits/quality/nearest_ball_tree.h"
+#include "threads/worker_pool.h"
 
 namespace medial_vk {
 
@@ -17,14 +19,18 @@ class Envelope {
  public:
   /// At least one ball. Errors: those of measure_ball_union().
   static Result<Envelope> build(std::span<const Ball> balls, unsigned threads = 0);
+  /// Of no ball.
+  Envelope() : tree_({}) {}
+  /// The same as build() on the threads of a pool, in the memory that it and the measurer have.
+  Status rebuild(std::span<const Ball> balls, UnionMeasurer& measurer, WorkerPool& pool);
 
   const NearestBallTree& tree() const { return tree_; }
   const BallUnion& measured() const { return union_; }
   /// Common points of three spheres, computed, that lie in no ball by more than tolerance() or by more than error_of()
   /// them. Where more than three spheres meet there may be several of them.
   const std::vector<EnvelopeVertex>& vertices() const { return vertices_; }
-  /// Bound of the distance of a computed vertex from the common point of its three spheres; infinite where none is
-  /// known. Too small where the centres are on one line within some 1e-10 of their distances.
+  /// Bound of the distance of a computed vertex from the common point of its three spheres. Where the centres are
+  /// nearly on one line, no more than the diameter of the smallest sphere.
   double error_of(const EnvelopeVertex& vertex) const;
   /// The greatest depth in a ball at which a point still counts as one of the envelope.
   double tolerance() const { return tolerance_; }
@@ -39,7 +45,8 @@ class Envelope {
   double signed_distance(const Point& p) const;
 
  private:
-  Envelope(std::span<const Ball> balls, BallUnion measured);
+  /// Of the balls of the tree and their union.
+  void find_vertices();
   void improve(std::uint32_t ball, const Point& p, double& best) const;
   void improve_on_arc(std::uint32_t ball, std::uint32_t other, const Point& p, double& best) const;
   bool is_exposed(const Point& p) const { return !tree_.holds(p, tolerance_); }
@@ -47,8 +54,8 @@ class Envelope {
 
   NearestBallTree tree_;
   BallUnion union_;
-  double tolerance_;
-  double distance_error_;
+  double tolerance_ = 0;
+  double distance_error_ = 0;
   std::vector<EnvelopeVertex> vertices_;
   // Of ball i: arcs with greater balls and vertices of greater balls, [first[i], first[i + 1]).
   std::vector<std::uint32_t> first_arc_, first_vertex_;

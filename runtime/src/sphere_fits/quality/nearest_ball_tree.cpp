@@ -16,9 +16,11 @@ constexpr std::size_t kStack = 64;
 
 }  // namespace
 
-NearestBallTree::NearestBallTree(std::span<const Ball> balls)
-    : balls_(balls.begin(), balls.end()), order_(balls.size()) {
+void NearestBallTree::rebuild(std::span<const Ball> balls) {
+  balls_.assign(balls.begin(), balls.end());
+  order_.resize(balls.size());
   std::iota(order_.begin(), order_.end(), 0u);
+  nodes_.clear();
   nodes_.reserve(balls_.size());
   if (!balls_.empty()) build(0, static_cast<std::uint32_t>(balls_.size()));
 }

@@ -30,7 +30,9 @@ class NearestBallTree {
   };
 
   /// Copies the balls, at least one.
-  explicit NearestBallTree(std::span<const Ball> balls);
+  explicit NearestBallTree(std::span<const Ball> balls) { rebuild(balls); }
+  /// The same in the memory that it has.
+  void rebuild(std::span<const Ball> balls);
 
   NearestBall nearest(const Point& p) const;
   /// True if the point is in one of the balls by more than `depth`. Stops at the first.
