@@ -1,8 +1,12 @@
 // Distances between solids and balls: those that a formula gives, and bounds against samples.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <vector>
 
 #include "base/point_ops.h"
 #include "sphere_fits/cover/smallest_ball.h"
@@ -102,6 +106,41 @@ TEST(EnvelopeVertices, AreKeptWhereTheirErrorReachesOut) {
   EXPECT_GT(kDepth, 2 * envelope.tolerance());
   EXPECT_EQ(kept(envelope), 1);
   EXPECT_EQ(kept(with_fourth(1e-5)), 0) << "held by more than the error";
+}
+
+/// Balls of a solid of revolution: centres that lie on its axis but for `off_line`, and spheres that share a point, up
+/// to the rounding of radii. That point and a computed one have the same common point of the spheres nearby. The bound
+/// of the former is at most (18 u (r + |y|)) 2 r (1 + 2 r / h) / off_line < 1e-13 / off_line: r and |y| are below 0.82,
+/// the height h is at least 0.7 sin 0.2, and the two shorter sides are 0.9 long in all.
+TEST(EnvelopeVertices, HaveBoundsWhereCentresAreNearlyOnOneLine) {
+  const Point axis = (1 / 3.0) * Point{1, 2, 2}, across = (1 / 3.0) * Point{2, 1, -2},
+              third = {-2 / 3.0, 2 / 3.0, -1 / 3.0};
+  double farthest = 0;
+  for (const double off_line : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13, 1e-14, 1e-15}) {
+    for (const double angle : {0.2, 0.9, 1.5}) {
+      const Point common = 0.4 * axis + 0.7 * (std::cos(angle) * across + std::sin(angle) * third);
+      std::vector<Ball> balls;
+      for (const double at : {0.0, 0.5, 0.9}) {
+        const Point centre = at * axis + (at == 0.5 ? off_line : 0) * across;
+        balls.push_back({centre, length(common - centre)});
+      }
+      const Envelope envelope = envelope_of(balls);
+      const double known = envelope.error_of({common, {0, 1, 2}});
+      EXPECT_LE(known, std::min(1e-13 / off_line, 2 * balls[1].radius + 1e-14));
+      std::array<Point, 2> points;
+      const std::size_t count = meet(balls[0], balls[1], balls[2], envelope.tolerance(), points);
+      double nearest = std::numeric_limits<double>::infinity(), error = 0;
+      for (std::size_t k = 0; k < count; ++k) {
+        if (length(points[k] - common) >= nearest) continue;
+        nearest = length(points[k] - common);
+        error = envelope.error_of({points[k], {0, 1, 2}});
+      }
+      if (count == 0) continue;
+      EXPECT_LE(nearest, error + known) << off_line << ", " << angle;
+      farthest = std::max(farthest, nearest);
+    }
+  }
+  EXPECT_GT(farthest, 1e-3) << "computed points are far from the common one where centres are nearly on one line";
 }
 
 /// The nearest of many points of the envelope is never nearer than the result, and not much farther.
