@@ -207,14 +207,19 @@ class Follower::Impl {
     return 1 - balls.volume / surface_.solid_volume(balls.volume, kAnyVolume);
   }
 
-  /// Where the uncovered share has grown, balls leave for gaps. Most frames need the volume alone, which costs no list
-  /// of neighbours and no memory.
+  /// Where the uncovered share has grown, balls leave for gaps. The share before the last step, which measured it,
+  /// decides whether a further union is worth its time.
   Status renew() {
     if (!(rest_share_ > 0)) return {};
-    if (Status status = measure_present(false); !status) return status;
-    if (!(uncovered_share(measurer_.result()) > options_.renewal_factor * rest_share_)) return {};
-    if (Status status = measurer_.measure(present_, true, pool_); !status) return status;
+    const double most = options_.renewal_factor * rest_share_;
+    if (options_.steps == 0) {
+      if (Status status = measure_present(false); !status) return status;
+      measured_share_ = uncovered_share(measurer_.result());
+    }
+    if (!(measured_share_ > most)) return {};
+    if (Status status = measure_present(true); !status) return status;
     const BallUnion& measured = measurer_.result();
+    if (!(uncovered_share(measured) > most)) return {};
     const Result<std::vector<BallExchange>> exchanges =
         find_exchanges(surface_, present_, measured, options_.renewed, options_.threads);
     if (!exchanges) return exchanges.error();
@@ -309,6 +314,7 @@ class Follower::Impl {
   Status ascend_all() {
     if (Status status = measure_present(false); !status) return status;
     const BallUnion& exposed = measurer_.result();
+    if (options_.renewed > 0) measured_share_ = uncovered_share(exposed);
     std::ranges::copy(tracked_, before_.begin());
     for_each_ball([&](std::size_t i) { ascend(surface_, {exposed.areas[i], exposed.vectors[i]}, tracked_[i]); });
     take_back_outside();
@@ -348,6 +354,7 @@ class Follower::Impl {
   std::vector<FollowOrigin> came_;        // since the last frame that was completed
   std::vector<std::uint8_t> is_renewed_;  // 1: away from its place of the rest pose
   double rest_share_ = 0;                 // of the volume, uncovered in the rest pose
+  double measured_share_ = 0;             // of the present frame, before the last step
 };
 
 Follower::Follower(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
