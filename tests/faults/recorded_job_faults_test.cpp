@@ -262,15 +262,18 @@ TEST(FramesOfBalls, AllocateNothing) {
     FollowRule rule;
     unsigned threads;
     std::uint32_t steps;
+    std::uint32_t renewed = 0;
   };
-  for (const auto& [rule, threads, steps] :
+  for (const auto& [rule, threads, steps, renewed] :
        {Case{FollowRule::kTangent, 1, 0}, Case{FollowRule::kTangent, 3, 0}, Case{FollowRule::kTangent, 1, 1},
-        Case{FollowRule::kTangent, 3, 2}, Case{FollowRule::kPublished, 1, 0}, Case{FollowRule::kPublished, 3, 0}}) {
+        Case{FollowRule::kTangent, 3, 2}, Case{FollowRule::kTangent, 1, 1, 5}, Case{FollowRule::kPublished, 1, 0},
+        Case{FollowRule::kPublished, 3, 0}}) {
     SCOPED_TRACE(testing::Message() << static_cast<int>(rule) << ", " << threads << " threads, steps: " << steps);
     FollowerOptions options;
     options.rule = rule;
     options.threads = threads;
     options.steps = steps;
+    options.renewed = renewed;  // where no ball leaves
     Follower follower = Follower::create(mesh, balls, options).value();
     const int motions = steps > 0 ? 3 : 1;
     for (int motion = 1; motion <= motions; ++motion) {
