@@ -65,7 +65,7 @@ void CavitySearch::group_points(Joined joined) {
       keys_.push_back({key, i});
     }
   }
-  std::ranges::sort(keys_);
+  std::ranges::sort(keys_, {}, [](const Key& key) { return std::pair(key.balls, key.vertex); });
   for (std::size_t k = 1; k < keys_.size(); ++k) {
     if (keys_[k - 1].balls != keys_[k].balls) continue;
     const std::uint32_t a = root_of(keys_[k - 1].vertex), b = root_of(keys_[k].vertex);
@@ -73,7 +73,7 @@ void CavitySearch::group_points(Joined joined) {
   }
   grouped_.clear();
   for (std::uint32_t i = 0; i < count; ++i) grouped_.push_back({root_of(i), i});
-  std::ranges::sort(grouped_);
+  std::ranges::sort(grouped_, {}, [](const Grouped& grouped) { return std::pair(grouped.group, grouped.vertex); });
   by_group_.clear();
   for (const Grouped& grouped : grouped_) by_group_.push_back(points_[grouped.vertex]);
 }

@@ -33,11 +33,9 @@ class CavitySearch {
   struct Key {
     std::array<std::uint32_t, 2> balls;
     std::uint32_t vertex;
-    auto operator<=>(const Key&) const = default;
   };
   struct Grouped {
     std::uint32_t group, vertex;
-    auto operator<=>(const Grouped&) const = default;
   };
 
   void find_points(const MovingSurface& surface, WorkerPool& pool);
