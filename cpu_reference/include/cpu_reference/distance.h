@@ -1,6 +1,7 @@
 // The distance of two meshes and of the solids that they enclose, by all pairs of triangles: simple, slow, and shared
-// with nothing. Whether triangles cross is exact, for the corners as they are placed; distances are in double: up to
-// rounding, which next to slivers of an aspect of 1e5 is some 1e-11 of lengths. Lengths are in the units of the meshes.
+// with nothing. Whether triangles cross and on which side of a surface a corner lies is exact, for the corners as they
+// are placed; distances are in double: up to rounding, which next to slivers of an aspect of 1e5 is some 1e-11 of
+// lengths. Lengths are in the units of the meshes.
 #pragma once
 
 #include <Eigen/Core>
@@ -33,7 +34,8 @@ struct Motion {
 NearestPair nearest_of_meshes(const Mesh& a, const Mesh& b, const Motion& motion);
 
 /// True if some component of one mesh lies in the solid of the other one (winding number at least 1/2); an open mesh
-/// encloses nothing. Precondition: the meshes do not meet, so that one corner of a component tells.
+/// encloses nothing. Precondition: the meshes do not meet, so that one corner of a component tells. A closed mesh has
+/// no open edge, and its orientation cancels on every edge.
 bool one_holds_the_other(const Mesh& a, const Mesh& b, const Motion& motion);
 
 }  // namespace medial_vk::reference

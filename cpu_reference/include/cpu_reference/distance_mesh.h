@@ -7,7 +7,6 @@
 
 #include "cpu_reference/distance.h"
 #include "cpu_reference/mesh.h"
-#include "cpu_reference/queries.h"
 
 namespace medial_vk::reference {
 
@@ -24,10 +23,10 @@ class DistanceMesh {
   static constexpr std::size_t kRun = 16;  ///< Triangles that have a ball in common.
 
   bool is_closed() const { return closed_; }
-  const Tree& tree() const { return tree_; }
   const std::vector<Corners>& triangles() const { return triangles_; }
   const std::vector<Around>& balls() const { return balls_; }  ///< By triangle, around its centroid.
   const std::vector<Around>& runs() const { return runs_; }    ///< Number i: of the triangles from kRun i on.
+  const Around& whole() const { return whole_; }               ///< Holds all triangles.
   /// One corner of each set of triangles that share corners.
   const std::vector<Eigen::Vector3d>& components() const { return components_; }
   double reach() const { return reach_; }  ///< The greatest distance of a corner from the origin.
@@ -35,8 +34,8 @@ class DistanceMesh {
  private:
   std::vector<Corners> triangles_;
   std::vector<Around> balls_, runs_;
+  Around whole_;
   std::vector<Eigen::Vector3d> components_;
-  Tree tree_;
   bool closed_;
   double reach_ = 0;
 };

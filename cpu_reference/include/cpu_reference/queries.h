@@ -92,7 +92,9 @@ class Tree {
   double rounding_ = 0;
 };
 
-/// The generalised winding number (Jacobson et al. 2013), exact: the sum of all solid angles over 4 pi.
+/// The generalised winding number (Jacobson et al. 2013), exact: the sum of all solid angles over 4 pi. Up to rounding:
+/// the sign of the angle of a triangle of the area A is noise if p is nearer to it than some 2^-52 L^3 / A, where L is
+/// the distance from its corners. Beside a sliver that may be far more than a rounding of the coordinates.
 double winding_number(const Tree& tree, const Eigen::Vector3d& p);
 
 /// The winding number within `tolerance`: far nodes contribute by their first two moments (Barill et al. 2018), and a

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <vector>
 
 #include "cpu_reference/distance_mesh.h"
+#include "geometry/corner_volume.h"
 
 namespace medial_vk::reference {
 namespace {
@@ -41,73 +41,13 @@ void take_segments(const Vector3d& p, const Vector3d& p2, const Vector3d& q, con
   if (s >= 0 && s <= 1 && t >= 0 && t <= 1) take(p + s * d, q + t * e, best);
 }
 
-/// A sum of doubles without rounding. Its parts do not overlap, and the least comes first: so the last one that is not
-/// zero has the sign of the sum (J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust
-/// geometric predicates", 1997, theorem 10).
-class ExactSum {
- public:
-  void add(double x) {
-    for (double& part : parts_) {
-      const double sum = part + x, of_x = sum - part;
-      part = (part - (sum - of_x)) + (x - of_x);  // what the sum has lost
-      x = sum;
-    }
-    parts_.push_back(x);
-    std::erase(parts_, 0.0);
-  }
-
-  void add_product(double x, double y, double z) {
-    const double xy = x * y;
-    for (const double part : {xy, std::fma(x, y, -xy)}) {
-      const double product = part * z;
-      add(product);
-      add(std::fma(part, z, -product));
-    }
-  }
-
-  double value() const { return std::accumulate(parts_.begin(), parts_.end(), 0.0); }
-
- private:
-  std::vector<double> parts_;
-};
-
-/// (b - a) x (c - a) . (d - a): the determinant of the corners with a column of ones, as a sum of products of three
-/// coordinates, which are exact as long as none of their digits is below 2^-1074.
-double exact_volume(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d) {
-  ExactSum sum;
-  const auto add_determinant = [&](const Vector3d& x, const Vector3d& y, const Vector3d& z) {
-    for (int i = 0; i < 3; ++i) {
-      sum.add_product(x[i], y[(i + 1) % 3], z[(i + 2) % 3]);
-      sum.add_product(-x[i], y[(i + 2) % 3], z[(i + 1) % 3]);
-    }
-  };
-  add_determinant(b, c, d);
-  add_determinant(c, a, d);
-  add_determinant(a, b, d);
-  add_determinant(b, a, c);
-  return sum.value();
-}
-
-/// The same with the right sign, and zero only where it is: in any fixed number of digits, signs are noise where a
-/// segment lies in the plane of a triangle, and beside slivers. Rounded, it has an error of less than 16 roundings of
-/// the product of the edges, and counts where it is more than 2^24 of these.
-double volume(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d) {
-  using Long = long double;
-  using LongVector = Eigen::Matrix<Long, 3, 1>;
-  const LongVector from = a.cast<Long>(), x = b.cast<Long>() - from, y = c.cast<Long>() - from,
-                   z = d.cast<Long>() - from;
-  const Long rounded = x.cross(y).dot(z), error = 0x1p24L * 8 * std::numeric_limits<Long>::epsilon();
-  const bool counts = rounded * rounded > error * error * x.squaredNorm() * y.squaredNorm() * z.squaredNorm();
-  return counts ? static_cast<double>(rounded) : exact_volume(a, b, c, d);
-}
-
 /// True if the segment passes through the triangle or ends on it, by the signs of five volumes: of the corners as they
 /// are, without a tolerance. False if it lies in the plane of the triangle: then corners or edges have a common point.
 bool meets(const Vector3d& p, const Vector3d& q, const Corners& triangle, Vector3d& at) {
   const auto& [a, b, c] = triangle;
-  const double of_p = volume(a, b, c, p), of_q = volume(a, b, c, q);
+  const double of_p = corner_volume(a, b, c, p), of_q = corner_volume(a, b, c, q);
   if ((of_p > 0 && of_q > 0) || (of_p < 0 && of_q < 0) || (of_p == 0 && of_q == 0)) return false;
-  const double x = volume(p, q, a, b), y = volume(p, q, b, c), z = volume(p, q, c, a);
+  const double x = corner_volume(p, q, a, b), y = corner_volume(p, q, b, c), z = corner_volume(p, q, c, a);
   if (!(x >= 0 && y >= 0 && z >= 0) && !(x <= 0 && y <= 0 && z <= 0)) return false;
   at = p + of_p / (of_p - of_q) * (q - p);
   return true;

@@ -124,8 +124,7 @@ class NearestSearch {
 
 }  // namespace
 
-DistanceMesh::DistanceMesh(const Mesh& mesh)
-    : components_(one_of_each_component(mesh)), tree_(mesh), closed_(mesh.closed) {
+DistanceMesh::DistanceMesh(const Mesh& mesh) : components_(one_of_each_component(mesh)), closed_(mesh.closed) {
   for (const Eigen::Vector3i& triangle : mesh.triangles) {
     triangles_.push_back(triangle_of(mesh, triangle));
     balls_.push_back(ball_around(triangles_.back()));
@@ -134,20 +133,11 @@ DistanceMesh::DistanceMesh(const Mesh& mesh)
   for (std::size_t i = 0; i < balls_.size(); i += kRun) {
     runs_.push_back(ball_around(balls_.data() + i, balls_.data() + std::min(balls_.size(), i + kRun)));
   }
+  whole_ = ball_around(runs_.data(), runs_.data() + runs_.size());
 }
 
 NearestPair nearest_of_meshes(const DistanceMesh& a, const DistanceMesh& b, const Motion& motion) {
   return NearestSearch(a, b, motion).run();
-}
-
-bool one_holds_the_other(const DistanceMesh& a, const DistanceMesh& b, const Motion& motion) {
-  const bool b_is_held = a.is_closed() && std::ranges::any_of(b.components(), [&](const Vector3d& corner) {
-                           return is_inside(a.tree(), motion.rotation * corner + motion.shift);
-                         });
-  if (b_is_held || !b.is_closed()) return b_is_held;
-  return std::ranges::any_of(a.components(), [&](const Vector3d& corner) {
-    return is_inside(b.tree(), motion.rotation.transpose() * (corner - motion.shift));
-  });
 }
 
 }  // namespace medial_vk::reference

@@ -1,8 +1,10 @@
-// Whether triangles cross, and how far they are apart, where fixed numbers of digits do not tell.
+// Whether triangles cross, how far they are apart, and which solid holds the other one, where fixed numbers of digits
+// do not tell.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "cpu_reference/distance.h"
@@ -106,6 +108,69 @@ TEST(ReferenceDistance, OfTouchingTriangles) {
   expect_distance({face, at_height(-0x1p-1000), 0});
   EXPECT_EQ(reference::nearest_of_triangles(face, at_height(0x1p-500)).distance, 0x1p-500);
   expect_distance({face, {Vector3d(0.5, -1, 0), Vector3d(0.5, 0.25, 0), Vector3d(2, 3, 0)}, 0});
+}
+
+/// A solid of some number of triangles.
+reference::Mesh closed_mesh(std::vector<Vector3d> vertices, std::vector<Eigen::Vector3i> triangles) {
+  return {std::move(vertices), std::move(triangles), {}, true};
+}
+
+/// The first corner decides whether another solid holds this one.
+reference::Mesh tetrahedron(const Vector3d& p, const Vector3d& q, const Vector3d& r, const Vector3d& s) {
+  return closed_mesh({p, q, r, s}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}});
+}
+
+/// The eight corners are those of a box: four around a face, and those across it.
+reference::Mesh box_of(const std::vector<Vector3d>& corners) {
+  return closed_mesh(corners, {{0, 1, 2},
+                               {0, 2, 3},
+                               {4, 5, 6},
+                               {4, 6, 7},
+                               {0, 3, 5},
+                               {0, 5, 4},
+                               {3, 2, 6},
+                               {3, 6, 5},
+                               {2, 1, 7},
+                               {2, 7, 6},
+                               {1, 0, 4},
+                               {1, 4, 7}});
+}
+
+// A corner is 3.2e-13 from an edge of the rim of a film, which is 1 long and 1e-7 wide, and in front of the rim and of
+// a face (seed 30243455 of soak_distances, by rational arithmetic). The volume of the corner and a triangle of the rim
+// is 3.2e-20, less than the rounding of its terms, so that solid angles in double do not tell on which side it is.
+TEST(ReferenceDistance, OfASolidBesideTheRimOfAFilm) {
+  const reference::Mesh film =
+      box_of({Vector3d(0, 0, 0), Vector3d(-0x1.ee8503a7ec44cp-2, 0x1.a9ffda8bb2769p-1, 0x1.1781ddd30b78dp-2),
+              Vector3d(0x1.31e1015ce3bc5p-2, 0x1.61d468e0b09b2p+0, -0x1.5816d7622dc7p-6),
+              Vector3d(0x1.9033028268009p-1, 0x1.19a8f735aebfcp-1, -0x1.2d034b492e554p-2),
+              Vector3d(0x1.531433197bf82p-25, -0x1.ea9b0360a66c4p-28, 0x1.896cebf63d3a6p-24),
+              Vector3d(0x1.903303d57c33ap-1, 0x1.19a8f6f85b5f5p-1, -0x1.2d0345237aa56p-2),
+              Vector3d(0x1.31e104030c228p-2, 0x1.61d468c206eafp+0, -0x1.58167506f2c9p-6),
+              Vector3d(-0x1.ee850101c3de9p-2, 0x1.a9ffda4e5f162p-1, 0x1.1781e3f8bf28ap-2)});
+  reference::Motion motion;
+  motion.rotation << 0x1.15e46dfe1f544p-2, -0x1.e708be56e2a95p-1, -0x1.2c4901baaa70cp-3, -0x1.95f94e38946a7p-1,
+      -0x1.3ab055f7ceda8p-2, 0x1.0d645091a9e22p-1, -0x1.17538a8c315fdp-1, -0x1.b29fa8258facp-6, -0x1.ace0c3e157e14p-1;
+  motion.shift = Vector3d(0x1.e5e134baf38cep-3, -0x1.117110751cfp-4, -0x1.9bfd41da25ep-9);
+  const reference::Mesh outside = tetrahedron({0, 0, 0}, {0.02, 0.05, 0}, {0, 0.05, 0.02}, {-0.01, 0.05, 0});
+  const reference::NearestPair nearest = reference::nearest_of_meshes(outside, film, motion);
+  EXPECT_NEAR(nearest.distance, 3.25e-13, 1e-14);
+  EXPECT_FALSE(reference::one_holds_the_other(outside, film, motion));
+  // As far behind the edge.
+  const Vector3d corner = 2 * nearest.on_b - nearest.on_a, inwards = (nearest.on_b - nearest.on_a).normalized();
+  const auto at = [&](const Vector3d& beside) { return Vector3d(corner + 1e-8 * (inwards + 0.1 * beside)); };
+  const reference::Mesh inside = tetrahedron(corner, at({1, 0, 0}), at({0, 1, 0}), at({0, 0, 1}));
+  EXPECT_GT(reference::nearest_of_meshes(inside, film, motion).distance, 0);
+  EXPECT_TRUE(reference::one_holds_the_other(inside, film, motion));
+}
+
+// The transpose of a rotation that is one to within 1e-12 is its inverse only to within as much.
+TEST(ReferenceDistance, OfASolidWithinOneThatAnUnevenRotationStretches) {
+  const reference::Mesh box = box_of({Vector3d(0, 0, 0), Vector3d(0, 1, 0), Vector3d(1, 1, 0), Vector3d(1, 0, 0),
+                                      Vector3d(0, 0, 1), Vector3d(1, 0, 1), Vector3d(1, 1, 1), Vector3d(0, 1, 1)});
+  const reference::Motion stretch = {(1 + 4e-13) * Eigen::Matrix3d::Identity(), Vector3d::Zero()};
+  const reference::Mesh inside = tetrahedron({1 + 2e-13, 0.5, 0.5}, {0.5, 0.6, 0.5}, {0.5, 0.5, 0.6}, {0.5, 0.4, 0.4});
+  EXPECT_TRUE(reference::one_holds_the_other(inside, box, stretch));
 }
 
 }  // namespace
