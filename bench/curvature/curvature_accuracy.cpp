@@ -22,7 +22,7 @@ constexpr double kReported = 0.6;  // the least object angle of the balls whose 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
 struct Settings {
-  std::vector<std::string> solids = {"triaxial", "oblate", "pipe", "plate", "flat torus"};
+  std::vector<std::string> solids = {"triaxial", "oblate", "pipe", "plate", "flat torus", "tight torus"};
   std::uint32_t triangles = 16000, resolution = 160;
   double object_angle = 0.3, jitter = 0;
   unsigned threads = 0;
@@ -176,7 +176,8 @@ void measure_solid(const std::string& name, const Settings& settings, Context& c
 int main(int argc, char** argv) {
   Settings settings;
   CLI::App app("Curvatures from medial balls against formulas");
-  app.add_option("--solids", settings.solids, "triaxial, oblate, pipe, plate, flat torus, slivers, lantern");
+  app.add_option("--solids", settings.solids,
+                 "triaxial, oblate, pipe, plate, flat torus, tight torus, slivers, lantern");
   app.add_option("--triangles", settings.triangles, "about, by solid");
   app.add_option("--resolution", settings.resolution, "voxels along the longest side");
   app.add_option("--object-angle", settings.object_angle, "of the balls that are found");

@@ -25,12 +25,14 @@ SmoothBoundary ellipsoid(const std::string& name, const Point& axes, std::uint32
   return out;
 }
 
-SmoothBoundary flat_torus(const std::string& name, std::uint32_t around, std::uint32_t along) {
-  constexpr double kMajor = 3, kMinor = 1, kFlat = 0.6;
-  SmoothBoundary out = {name, {}, always, test::make_torus(kMajor, kMinor, around, along, kFlat)};
-  out.height = [](const Point& p) {
-    const double across = std::hypot(p[0], p[1]) - kMajor, up = p[2] / kFlat;
-    return across * across + up * up - kMinor * kMinor;
+/// A tube of elliptic sections, of semi-axes `minor` and `flat` times that, bent to a ring. The tightest bends of the
+/// section have the radius flat^2 minor.
+SmoothBoundary flat_torus(const std::string& name, double major, double minor, double flat, std::uint32_t around,
+                          std::uint32_t along) {
+  SmoothBoundary out = {name, {}, always, test::make_torus(major, minor, around, along, flat)};
+  out.height = [=](const Point& p) {
+    const double across = std::hypot(p[0], p[1]) - major, up = p[2] / flat;
+    return across * across + up * up - minor * minor;
   };
   return out;
 }
@@ -72,7 +74,7 @@ SmoothBoundary pipe(const std::string& name, std::uint32_t around, std::uint32_t
 
 constexpr double kSide = 10;
 
-double half_thickness(double x, double y) { return 0.5 + 0.08 * std::sin(1.3 * x) * std::cos(1.1 * y + 0.4); }
+double half_thickness(double x, double y) { return 0.5 + 0.15 * std::sin(0.8 * x) * std::cos(0.65 * y + 0.4); }
 
 SmoothBoundary plate(std::uint32_t triangles) {
   SmoothBoundary out = {"plate", {}, {}, {}};
@@ -172,9 +174,10 @@ SmoothBoundary make_boundary(const std::string& name, std::uint32_t triangles) {
   const auto sized = [&](double count) { return static_cast<std::uint32_t>(std::lround(size * count / 2)) * 2; };
   if (name == "triaxial") return ellipsoid(name, {5, 3.5, 2}, triangles);
   if (name == "oblate") return ellipsoid(name, {2, 2, 1}, triangles);
-  if (name == "flat torus") return flat_torus(name, sized(50), sized(160));
+  if (name == "flat torus") return flat_torus(name, 1.5, 0.78, 0.8, sized(72), sized(112));
+  if (name == "tight torus") return flat_torus(name, 3, 1, 0.6, sized(50), sized(160));
   if (name == "slivers") {
-    SmoothBoundary slivers = flat_torus(name, sized(320), sized(25));
+    SmoothBoundary slivers = flat_torus(name, 1.5, 0.78, 0.8, sized(320), sized(25));
     slivers.jitter(0.3, 1);
     return slivers;
   }

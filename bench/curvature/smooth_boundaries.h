@@ -31,8 +31,9 @@ struct SmoothBoundary {
   void jitter(double share, std::uint64_t seed);
 };
 
-/// triaxial, oblate, pipe, plate, flat-torus, with about `triangles` triangles; slivers: the flat torus with triangles
-/// thirteen times as long as wide, jittered; lantern: a Schwarz lantern, a pipe whose rings of vertices alternate.
+/// triaxial, oblate, pipe, plate, flat torus, tight torus, with about `triangles` triangles; slivers: the flat torus
+/// with triangles much longer than wide, jittered; lantern: a Schwarz lantern, a pipe whose rings of vertices
+/// alternate.
 SmoothBoundary make_boundary(const std::string& name, std::uint32_t triangles);
 
 }  // namespace medial_vk::bench

@@ -13,12 +13,12 @@
 namespace medial_vk {
 
 /// The radii of the windows on the boundary, in spacings, each about sqrt(2) of the one before.
-inline constexpr std::array kWindows = {7.0, 10.0, 14.0, 20.0, 28.0};
+inline constexpr std::array kWindows = {5.0, 7.0, 10.0, 14.0, 20.0, 28.0};
 /// The radius of the window on the sheet that gives the spokes, as a share of the one on the boundary.
 inline constexpr double kSheetShare = 0.65;
 
-/// Points closer than this share of a window's radius to another one are left out of it: some 300 remain.
-inline constexpr double kThinning = 1.0 / 11;
+/// Points closer than this share of a window's radius to another one are left out of it: some 200 remain.
+inline constexpr double kThinning = 1.0 / 9;
 
 /// What one width gives.
 struct LadderStep {

@@ -1,10 +1,10 @@
 // Least squares fits of polynomials in two variables, by the moments of their places.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace medial_vk {
@@ -96,28 +96,46 @@ class RightSide {
   std::array<double, static_cast<std::size_t>(terms_of(Degree))> sums_ = {};
 };
 
-/// Symmetric positive equations.
+/// Symmetric positive equations, by Cholesky's factors.
 template <int Terms>
 class NormalEquations {
  public:
   using Matrix = Eigen::Matrix<double, Terms, Terms>;
   using Vector = Eigen::Matrix<double, Terms, 1>;
 
-  /// False if the places do not determine the polynomial.
+  /// Reads the lower triangle. False if the places do not determine the polynomial: if a term is a combination of those
+  /// before it but for 10^-9 of its square.
   bool factor(const Matrix& matrix) {
-    factor_.compute(matrix);
-    const auto pivots = factor_.vectorD();  // their ratio is about the condition of the matrix
-    return factor_.info() == Eigen::Success && pivots.minCoeff() > 1e-9 * pivots.maxCoeff();
+    for (int j = 0; j < Terms; ++j) {
+      for (int i = j; i < Terms; ++i) {
+        double sum = matrix(i, j);
+        for (int k = 0; k < j; ++k) sum -= lower_(i, k) * lower_(j, k);
+        if (i == j) {
+          if (!(sum > 1e-9 * matrix(j, j))) return false;
+          lower_(j, j) = std::sqrt(sum);
+        } else {
+          lower_(i, j) = sum / lower_(j, j);
+        }
+      }
+    }
+    return true;
   }
-  Vector solve(const Vector& right) const { return factor_.solve(right); }
+  Vector solve(Vector right) const {
+    for (int i = 0; i < Terms; ++i) {
+      for (int k = 0; k < i; ++k) right[i] -= lower_(i, k) * right[k];
+      right[i] /= lower_(i, i);
+    }
+    for (int i = Terms - 1; i >= 0; --i) {
+      for (int k = i + 1; k < Terms; ++k) right[i] -= lower_(k, i) * right[k];
+      right[i] /= lower_(i, i);
+    }
+    return right;
+  }
   /// Of the inverse: the variance of a coefficient for residuals of variance 1.
-  double inverse_diagonal(int term) const {
-    const Vector unit = Vector::Unit(term);
-    return solve(unit)[term];
-  }
+  double inverse_diagonal(int term) const { return solve(Vector::Unit(term))[term]; }
 
  private:
-  Eigen::LDLT<Matrix> factor_;
+  Eigen::Matrix<double, Terms, Terms, Eigen::RowMajor> lower_;
 };
 
 }  // namespace medial_vk

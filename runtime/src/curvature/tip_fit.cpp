@@ -98,7 +98,7 @@ bool fit_window(std::span<const FramedTip> tips, HeightFit& fit) {
           (x > 0 ? x * slopes[0][term_of(x - 1, y)] : 0) + (y > 0 ? y * slopes[1][term_of(x, y - 1)] : 0);
     }
   }
-  for (int round = 0; round < 3; ++round) {
+  for (int round = 0; round < 2; ++round) {
     if (!fit.equations.factor(of_values + fit.slope_weight * of_slopes)) return false;
     fit.coefficients = fit.equations.solve(values_right + fit.slope_weight * slopes_right);
     const double weights = moments.weights();
