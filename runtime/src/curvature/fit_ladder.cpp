@@ -6,7 +6,8 @@ namespace medial_vk {
 namespace {
 
 constexpr std::size_t kSteps = kWindows.size();
-constexpr double kSameSide = 0.7;  // of spokes within half of a window
+constexpr double kBiasShare = 0.25;  // of the fourth power of widths whose squares are as 1 to 2
+constexpr double kSameSide = 0.7;    // of spokes within half of a window
 
 double angle_of(const Point& a, const Point& b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
 
@@ -25,18 +26,18 @@ std::vector<Difference> differences_of(const LadderStep& wide, const LadderStep&
   return out;
 }
 
-/// The first width from the widest one down that differs less than the one below it. Below, noise makes differences
-/// grow again; where windows lie within single facets they would be small, and are not looked at.
+/// The width that differs least from the next narrower one. Where windows lie within single facets, narrow ones differ
+/// little from each other, and are wrong. So a width is no better than the wider ones would let it be if their
+/// differences were bias, of which the next narrower one has a quarter.
 FitLadder::Choice choice_of(const std::array<Difference, kSteps>& differences) {
   FitLadder::Choice best;
+  double least_form = 0;
   for (std::size_t i = kSteps - 1; i > 0; --i) {
     const Difference& at = differences[i];
-    if (std::isnan(at.form)) {
-      if (best.step > 0) break;
-      continue;
-    }
-    if (best.step > 0 && at.form >= best.form_difference) break;
-    best = {i, at.form, at.angle};
+    least_form *= kBiasShare;
+    if (std::isnan(at.form)) continue;
+    least_form = std::max(least_form, at.form);
+    if (best.step == 0 || least_form < best.form_difference) best = {i, least_form, at.angle};
   }
   return best;
 }
@@ -101,7 +102,7 @@ void FitLadder::fit_tips(std::size_t step, double radius, unsigned threads) {
   thin_out(at.cloud.tips, grid, kThinning * radius, at.is_kept);
   parallel_for(at.fits.size(), 64, threads, [&](std::size_t i) {
     if (at.cloud.is_used[i] == 0 || stop_.stop_requested()) return;
-    at.fits[i] = fit_tip(at.cloud, at.is_kept, grid, static_cast<std::uint32_t>(i), radius);
+    at.fits[i] = fit_tip(at.cloud, at.is_kept, grid, static_cast<std::uint32_t>(i), radius, step > 1);
   });
 }
 
@@ -125,7 +126,10 @@ void FitLadder::choose(double spacing, unsigned threads) {
         angle += differences[k][other].angle;
         number += 1;
       });
-      if (number > 0) means[i] = {std::sqrt(form / number), std::sqrt(angle / number)};
+      if (number == 0) return;
+      // A tip that differs by more than twice what is usual around it is a stray.
+      const Difference& own = differences[k][i];
+      means[i] = {std::sqrt(std::max(form / number, own.form / 4)), std::sqrt(std::max(angle / number, own.angle / 4))};
     });
     differences[k] = std::move(means);
   }

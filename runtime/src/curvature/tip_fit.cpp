@@ -12,6 +12,10 @@ using Coefficients = Eigen::Matrix<double, kTerms, 1>;
 
 constexpr double kSimilarSpokes = 0.4;  // the slopes of those farther away are too steep for a height
 
+// On a cylinder of radius R the mean of the spokes of a window has the length 1 - (W / R)^2 / 16: here W = 1.26 R.
+// Wider windows end where spokes are too steep, not at their radius, and would agree with each other.
+constexpr double kLeastAlignment = 0.9;
+
 /// A tip in the frame of the fit, in units of the window's radius.
 struct FramedTip {
   double x, y, height;
@@ -26,6 +30,7 @@ struct HeightFrame {
 
 struct FramedWindow {
   HeightFrame frame;
+  double alignment = 0;  ///< The length of the mean spoke.
   std::vector<FramedTip> tips;
 };
 
@@ -37,14 +42,17 @@ FramedWindow window_around(const TipCloud& cloud, std::span<const std::uint8_t> 
   };
   std::vector<Near> near;
   Point sum = {0, 0, 0};
+  double weights = 0;
   grid.visit_within(cloud.tips[tip], radius, [&](std::uint32_t other, double squared) {
     if (is_kept[other] == 0 || dot(cloud.normals[other], cloud.normals[tip]) <= kSimilarSpokes) return;
     const double left = 1 - squared / (radius * radius);
     near.push_back({other, left * left});
+    weights += left * left;
     sum = sum + near.back().weight * cloud.normals[other];
   });
   FramedWindow window;
   window.frame.up = 1 / length(sum) * sum;
+  window.alignment = length(sum) / weights;
   window.frame.x = perpendicular_to(window.frame.up);
   window.frame.y = cross(window.frame.up, window.frame.x);
   window.tips.reserve(near.size());
@@ -154,10 +162,10 @@ void set_form(const Coefficients& c, const HeightFrame& frame, double radius, Ti
 }  // namespace
 
 TipFit fit_tip(const TipCloud& cloud, std::span<const std::uint8_t> is_kept, const PointGrid& grid, std::uint32_t tip,
-               double radius) {
+               double radius, bool is_wide) {
   TipFit out;
   FramedWindow window = window_around(cloud, is_kept, grid, tip, radius);
-  if (window.tips.size() < kTerms) return out;
+  if (window.tips.size() < kTerms || (is_wide && window.alignment < kLeastAlignment)) return out;
   HeightFit fit;
   fit.slope_weight = 0.01;
   if (!fit_window(window.tips, fit)) return out;

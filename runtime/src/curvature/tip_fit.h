@@ -29,7 +29,8 @@ struct TipFit {
 
 /// A polynomial of degree 4 for the height, fitted to heights and slopes of the tips within `radius` whose spokes are
 /// less than 66 degrees from that of the tip, of those that are kept. `grid` holds the tips of `cloud`.
+/// `is_wide`: the result is not known where the boundary bends too much within the window.
 TipFit fit_tip(const TipCloud& cloud, std::span<const std::uint8_t> is_kept, const PointGrid& grid, std::uint32_t tip,
-               double radius);
+               double radius, bool is_wide);
 
 }  // namespace medial_vk
