@@ -105,7 +105,7 @@ LocalShape SheetLinks::shape_around(std::uint32_t ball) const {
     if (distance <= kNormalReach * spacing_) near.add(centres_[other] - centre);
   });
   const bool is_apart = beyond == 0 && wide.farthest() <= 0.25 * balls_[ball].radius;
-  if (wide.count() < kFewest) {
+  if (wide.count() < kFewest || wide.farthest() == 0) {
     return {is_apart ? CurvatureState::kPoint : CurvatureState::kFew, {0, 0, 0}};
   }
   const auto axes = wide.axes();

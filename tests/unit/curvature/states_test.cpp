@@ -39,8 +39,10 @@ TEST(CurvatureStates, ATubeHasOneCurvature) {
 }
 
 TEST(CurvatureStates, SingleBallsArePoints) {
-  const std::vector<std::vector<Ball>> sets = {
-      {{{1, 2, 3}, 4}}, {{{1, 2, 3}, 4}, {{1, 2, 3}, 4}}, {{{1, 2, 3}, 4}, {{1.1, 2, 3}, 4}, {{1, 2.1, 3}, 4}}};
+  const std::vector<std::vector<Ball>> sets = {{{{1, 2, 3}, 4}},
+                                               {{{1, 2, 3}, 4}, {{1, 2, 3}, 4}},
+                                               {{{1, 2, 3}, 4}, {{1.1, 2, 3}, 4}, {{1, 2.1, 3}, 4}},
+                                               std::vector<Ball>(8, {{1, 2, 3}, 4})};
   for (const std::vector<Ball>& balls : sets) {
     const BoundaryCurvature result = measure_curvature(balls).value();
     for (const BallCurvature& ball : result.balls) {
