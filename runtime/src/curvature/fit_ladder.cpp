@@ -26,6 +26,12 @@ std::vector<Difference> differences_of(const LadderStep& wide, const LadderStep&
   return out;
 }
 
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 /// The width that differs least from the next narrower one. Where windows lie within single facets, narrow ones differ
 /// little from each other, and are wrong. So a width is no better than the wider ones would let it be if their
 /// differences were bias, of which the next narrower one has a quarter.
@@ -112,26 +118,25 @@ void FitLadder::choose(double spacing, unsigned threads) {
   for (std::size_t k = 1; k < kSteps; ++k) differences[k] = differences_of(steps_[k], steps_[k - 1]);
   choices_.resize(count);
   for (std::size_t k = 1; k < kSteps; ++k) {
-    // The mean over the tips around, in the place of the value of one.
-    std::vector<Difference> means(count, Difference{std::nan(""), std::nan("")});
+    // The median over the tips around, in the place of the value of one: those at a rim may differ much more.
+    std::vector<Difference> usual(count, Difference{std::nan(""), std::nan("")});
     const TipCloud& cloud = steps_[k].cloud;
     const PointGrid grid(cloud.tips, kWindows[k] * spacing / 4);
     parallel_for(count, 64, threads, [&](std::size_t i) {
       if (stop_.stop_requested() || std::isnan(differences[k][i].form)) return;
-      double form = 0, angle = 0, number = 0;
+      std::vector<double> forms, angles;
       grid.visit_within(cloud.tips[i], kWindows[k] / 2 * spacing, [&](std::uint32_t other, double) {
         if (steps_[k].is_kept[other] == 0 || std::isnan(differences[k][other].form)) return;
         if (dot(cloud.normals[other], cloud.normals[i]) < kSameSide) return;
-        form += differences[k][other].form;
-        angle += differences[k][other].angle;
-        number += 1;
+        forms.push_back(differences[k][other].form);
+        angles.push_back(differences[k][other].angle);
       });
-      if (number == 0) return;
+      if (forms.empty()) return;
       // A tip that differs by more than twice what is usual around it is a stray.
       const Difference& own = differences[k][i];
-      means[i] = {std::sqrt(std::max(form / number, own.form / 4)), std::sqrt(std::max(angle / number, own.angle / 4))};
+      usual[i] = {std::sqrt(std::max(median(forms), own.form / 4)), std::sqrt(std::max(median(angles), own.angle / 4))};
     });
-    differences[k] = std::move(means);
+    differences[k] = std::move(usual);
   }
   parallel_for(count, 1024, threads, [&](std::size_t i) {
     std::array<Difference, kSteps> of_tip = {};

@@ -12,7 +12,7 @@ namespace medial_vk {
 namespace {
 
 // Of the difference between two windows, so that 90 % of the true errors on the solids of docs/accuracy.md are smaller.
-constexpr double kErrorFactor = 2.5;
+constexpr double kErrorFactor = 3;
 constexpr double kUncertainShare = 0.25;
 
 bool is_finite(const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
