@@ -11,6 +11,7 @@
 #include "medial_vk/collisions.h"
 #include "medial_vk/context.h"
 #include "medial_vk/cover_follower.h"
+#include "medial_vk/curvature.h"
 #include "medial_vk/device_bodies.h"
 #include "medial_vk/dual_complex.h"
 #include "medial_vk/dynamic_union.h"

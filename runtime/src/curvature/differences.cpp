@@ -1,0 +1,173 @@
+#include "curvature/differences.h"
+
+#include <numbers>
+
+namespace medial_vk {
+namespace {
+
+constexpr double kGammaCosine = 0.696706709;  // of gamma = 0.8 radians, Section 5.4.1
+constexpr double kSimilarDot = 0.8;           // Section 5.4.2
+constexpr double kStepTolerance = 0.2;        // epsilon_1
+constexpr double kAverageShare = 0.25;        // epsilon_2 over the step; also sigma of Section 5.4.1 as it is read here
+constexpr double kShorter = 0.75;             // a step is decreased by this factor
+
+std::vector<Point> middles_of(std::span<const Ball> balls) {
+  std::vector<Point> out;
+  out.reserve(balls.size());
+  for (const Ball& ball : balls) out.push_back(ball.centre);
+  return out;
+}
+
+Point unit(const Point& v) {
+  const double norm = length(v);
+  return norm > 0 ? 1 / norm * v : Point{0, 0, 0};
+}
+
+/// A real eigenvalue of the radial shape operator, with its direction in the tangent plane.
+struct RadialAxis {
+  double kappa;
+  Point direction;
+};
+
+/// Both axes of the matrix (a b; c d) in a basis; false if they are complex.
+bool axes_of(double a, double b, double c, double d, const Point& first, const Point& second,
+             std::array<RadialAxis, 2>& out) {
+  const double half = (a + d) / 2, square = (a - d) * (a - d) / 4 + b * c;
+  if (!(square >= 0)) return false;
+  const double root = std::sqrt(square);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double value = half + (i == 0 ? -root : root);
+    // Both rows of the matrix less the eigenvalue are perpendicular to the vector; the longer one says it better.
+    const bool use_first = std::hypot(a - value, b) >= std::hypot(c, d - value);
+    double x = use_first ? -b : value - d, y = use_first ? a - value : c;
+    if (x == 0 && y == 0) (i == 0 ? x : y) = 1;
+    out[i] = {value, unit(x * first + y * second)};
+  }
+  return true;
+}
+
+}  // namespace
+
+SpokeDifferences::SpokeDifferences(std::span<const Ball> balls, std::span<const SpokePair> spokes, double spacing,
+                                   const CurvatureOptions& options)
+    : balls_(balls),
+      spokes_(spokes.begin(), spokes.end()),
+      centres_(middles_of(balls)),
+      step_(options.step * spacing),
+      least_step_(2 * std::numbers::sqrt3 * spacing),
+      grid_(centres_, step_ / 3) {
+  if (!options.smooth) return;
+  std::vector<SpokePair> smoothed(balls.size());
+  for (std::uint32_t i = 0; i < balls.size(); ++i) {
+    bool found = false;
+    smoothed[i] = average(centres_[i], 2 * kAverageShare * step_, normal_of(i), kGammaCosine, found);
+    if (!found) smoothed[i] = spokes_[i];
+    // The average is about the ball's own normal, so that its spokes keep their names.
+  }
+  spokes_ = std::move(smoothed);
+}
+
+Point SpokeDifferences::normal_of(std::uint32_t ball) const { return unit(spokes_[ball].a - spokes_[ball].b); }
+
+SpokePair SpokeDifferences::aligned(std::uint32_t ball, const Point& normal) const {
+  const SpokePair& own = spokes_[ball];
+  return dot(own.a - own.b, normal) < 0 ? SpokePair{own.b, own.a} : own;
+}
+
+SpokePair SpokeDifferences::average(const Point& place, double reach, const Point& normal, double least_cosine,
+                                    bool& found) const {
+  SpokePair sum = {{0, 0, 0}, {0, 0, 0}};
+  const double sigma = kAverageShare * step_;
+  found = false;
+  grid_.visit_within(place, reach, [&](std::uint32_t other, double squared) {
+    if (std::fabs(dot(normal_of(other), normal)) < least_cosine) return;
+    const SpokePair pair = aligned(other, normal);
+    const double weight = std::exp(-squared / (2 * sigma * sigma));
+    sum.a = sum.a + weight * pair.a;
+    sum.b = sum.b + weight * pair.b;
+    found = true;
+  });
+  return {unit(sum.a), unit(sum.b)};
+}
+
+bool SpokeDifferences::find_step(std::uint32_t ball, const Point& direction, double step, Neighbour& found) const {
+  const Point target = centres_[ball] + step * direction;
+  double least = std::numeric_limits<double>::infinity();
+  std::uint32_t nearest = ball;
+  // Balls farther from the target than the step tolerates cannot pass the test of the distance from x_0 along it.
+  grid_.visit_within(target, step, [&](std::uint32_t other, double squared) {
+    if (squared < least || (squared == least && other < nearest)) {
+      least = squared;
+      nearest = other;
+    }
+  });
+  const double distance = length(centres_[nearest] - centres_[ball]);
+  if (nearest == ball || std::fabs(distance - step) > kStepTolerance * step) return false;
+  if (std::fabs(dot(normal_of(nearest), normal_of(ball))) <= kGammaCosine) return false;
+  found = {nearest, distance};
+  return true;
+}
+
+bool SpokeDifferences::find_basis(std::uint32_t ball, Basis& basis) const {
+  const Point normal = normal_of(ball);
+  if (!(dot(normal, normal) > 0)) return false;
+  const Point direction = perpendicular_to(normal);
+  for (double step = step_; step >= least_step_; step *= kShorter) {
+    for (const double sign : {1.0, -1.0}) {
+      Neighbour next{};
+      if (!find_step(ball, sign * direction, step, next)) continue;
+      basis.length = next.length;
+      basis.first = 1 / next.length * (centres_[next.ball] - centres_[ball]);
+      basis.second = unit(cross(normal, basis.first));
+      basis.normal = cross(basis.first, basis.second);
+      basis.at_first = aligned(next.ball, normal);
+      const Point place = centres_[ball] + next.length * basis.second;
+      bool found = false;
+      for (const double least_cosine : {kSimilarDot, -1.0}) {
+        basis.at_second = average(place, kAverageShare * step_, normal, least_cosine, found);
+        if (found) return true;
+      }
+    }
+  }
+  return false;
+}
+
+BallCurvature SpokeDifferences::measure(std::uint32_t ball) const {
+  BallCurvature out;
+  const SpokePair& own = spokes_[ball];
+  out.object_angle = 0.5 * std::atan2(length(cross(own.a, own.b)), dot(own.a, own.b));
+  Basis basis;
+  const bool has_basis = find_basis(ball, basis);
+  const double r = balls_[ball].radius;
+  for (std::size_t side = 0; side < 2; ++side) {
+    TipCurvature& tip = out.tips[side];
+    const Point &spoke = side == 0 ? own.a : own.b, &at_first = side == 0 ? basis.at_first.a : basis.at_first.b;
+    const Point& at_second = side == 0 ? basis.at_second.a : basis.at_second.b;
+    tip.normal = spoke;
+    const double across = dot(spoke, basis.normal);
+    if (!has_basis || across == 0) continue;  // kFew
+    // Equations 5.9, 5.10, 5.12, 5.13; then 5.4 and 5.5, along the spoke onto the tangent plane.
+    const auto column = [&](const Point& there) {
+      const Point change = 1 / basis.length * (there - spoke);
+      return -1 * (change - dot(change, basis.normal) / across * spoke);
+    };
+    const Point along = column(at_first), aside = column(at_second);
+    std::array<RadialAxis, 2> axes;
+    tip.state = CurvatureState::kUncertain;
+    if (!axes_of(dot(along, basis.first), dot(aside, basis.first), dot(along, basis.second), dot(aside, basis.second),
+                 basis.first, basis.second, axes)) {
+      continue;
+    }
+    tip.state = CurvatureState::kFocal;
+    if (axes[1].kappa * r >= 1) continue;  // equation 5.6
+    tip.state = CurvatureState::kKnown;
+    tip.window = basis.length;
+    for (std::size_t i = 0; i < 2; ++i) {
+      tip.kappa[i] = -axes[i].kappa / (1 - r * axes[i].kappa);  // equation 5.7
+      tip.directions[i] = unit(axes[i].direction - dot(axes[i].direction, spoke) * spoke);
+    }
+  }
+  return out;
+}
+
+}  // namespace medial_vk

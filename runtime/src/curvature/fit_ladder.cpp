@@ -1,0 +1,148 @@
+#include "curvature/fit_ladder.h"
+
+#include "base/parallel.h"
+
+namespace medial_vk {
+namespace {
+
+constexpr std::size_t kSteps = kWindows.size();
+constexpr double kBiasShare = 0.25;  // of the fourth power of widths whose squares are as 1 to 2
+constexpr double kSameSide = 0.7;    // of spokes within half of a window
+
+double angle_of(const Point& a, const Point& b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
+
+/// How much a width differs from the next narrower one at a tip: squares, NaN where one of them gives no result.
+struct Difference {
+  double form, angle;
+};
+
+std::vector<Difference> differences_of(const LadderStep& wide, const LadderStep& narrow) {
+  std::vector<Difference> out(wide.fits.size(), Difference{std::nan(""), std::nan("")});
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (!wide.fits[i].is_known || !narrow.fits[i].is_known) continue;
+    const double angle = angle_of(wide.fits[i].normal, narrow.fits[i].normal);
+    out[i] = {(wide.fits[i].form - narrow.fits[i].form).squaredNorm(), angle * angle};
+  }
+  return out;
+}
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The width that differs least from the next narrower one. Where windows lie within single facets, narrow ones differ
+/// little from each other, and are wrong. So a width is no better than the wider ones would let it be if their
+/// differences were bias, of which the next narrower one has a quarter.
+FitLadder::Choice choice_of(const std::array<Difference, kSteps>& differences) {
+  FitLadder::Choice best;
+  double least_form = 0;
+  for (std::size_t i = kSteps - 1; i > 0; --i) {
+    const Difference& at = differences[i];
+    least_form *= kBiasShare;
+    if (std::isnan(at.form)) continue;
+    least_form = std::max(least_form, at.form);
+    if (best.step == 0 || least_form < best.form_difference) best = {i, least_form, at.angle};
+  }
+  return best;
+}
+
+}  // namespace
+
+FitLadder::FitLadder(const SheetLinks& links, unsigned threads, const StageProgress& progress,
+                     const std::stop_token& stop)
+    : stop_(stop) {
+  const auto report = [&](const char* stage, double done) {
+    if (progress) progress(stage, done);
+  };
+  report("sheets", 0);
+  fit_sheets(links, threads);
+  for (std::size_t i = 0; i < kSteps; ++i) {
+    report("tips", static_cast<double>(i) / kSteps);
+    if (stop.stop_requested()) return;
+    fit_tips(i, kWindows[i] * links.spacing(), threads);
+  }
+  report("windows", 0);
+  choose(links.spacing(), threads);
+  report("windows", 1);
+}
+
+void FitLadder::fit_sheets(const SheetLinks& links, unsigned threads) {
+  const std::size_t count = links.balls().size();
+  for (LadderStep& step : steps_) {
+    step.cloud = {std::vector<Point>(2 * count), std::vector<Point>(2 * count), std::vector<std::uint8_t>(2 * count)};
+    step.is_cut.resize(count);
+  }
+  std::array<std::vector<std::uint8_t>, kSteps> kept;
+  for (std::size_t k = 0; k < kSteps; ++k) {
+    kept[k].assign(count, 1);
+    thin_out(links.centres(), links.grid(), kThinning * kSheetShare * kWindows[k] * links.spacing(), kept[k]);
+  }
+  parallel_blocks(count, 512, threads, [&](std::size_t begin, std::size_t end) {
+    SheetWindow window(links);
+    for (std::size_t i = begin; i < end && !stop_.stop_requested(); ++i) {
+      const auto ball = static_cast<std::uint32_t>(i);
+      if (links.shape(ball).state != CurvatureState::kKnown) continue;
+      const double unit = kSheetShare * links.spacing();
+      const auto& members = window.collect(ball, kWindows.back() * unit);
+      for (std::size_t k = 0; k < kSteps; ++k) {
+        const SheetFit fit = fit_sheet(links, ball, members, kWindows[k] * unit, kept[k]);
+        if (!fit.is_known) continue;
+        steps_[k].is_cut[i] = fit.is_cut ? 1 : 0;
+        for (std::size_t side = 0; side < 2; ++side) {
+          steps_[k].cloud.tips[2 * i + side] = fit.tips[side];
+          steps_[k].cloud.normals[2 * i + side] = fit.spokes[side];
+          steps_[k].cloud.is_used[2 * i + side] = 1;
+        }
+      }
+    }
+  });
+}
+
+void FitLadder::fit_tips(std::size_t step, double radius, unsigned threads) {
+  LadderStep& at = steps_[step];
+  at.fits.resize(at.cloud.tips.size());
+  const PointGrid grid(at.cloud.tips, radius / 3);
+  at.is_kept = at.cloud.is_used;
+  thin_out(at.cloud.tips, grid, kThinning * radius, at.is_kept);
+  parallel_for(at.fits.size(), 64, threads, [&](std::size_t i) {
+    if (at.cloud.is_used[i] == 0 || stop_.stop_requested()) return;
+    at.fits[i] = fit_tip(at.cloud, at.is_kept, grid, static_cast<std::uint32_t>(i), radius, step > 1);
+  });
+}
+
+void FitLadder::choose(double spacing, unsigned threads) {
+  const std::size_t count = steps_[0].fits.size();
+  std::array<std::vector<Difference>, kSteps> differences;
+  for (std::size_t k = 1; k < kSteps; ++k) differences[k] = differences_of(steps_[k], steps_[k - 1]);
+  choices_.resize(count);
+  for (std::size_t k = 1; k < kSteps; ++k) {
+    // The median over the tips around, in the place of the value of one: those at a rim may differ much more.
+    std::vector<Difference> usual(count, Difference{std::nan(""), std::nan("")});
+    const TipCloud& cloud = steps_[k].cloud;
+    const PointGrid grid(cloud.tips, kWindows[k] * spacing / 4);
+    parallel_for(count, 64, threads, [&](std::size_t i) {
+      if (stop_.stop_requested() || std::isnan(differences[k][i].form)) return;
+      std::vector<double> forms, angles;
+      grid.visit_within(cloud.tips[i], kWindows[k] / 2 * spacing, [&](std::uint32_t other, double) {
+        if (steps_[k].is_kept[other] == 0 || std::isnan(differences[k][other].form)) return;
+        if (dot(cloud.normals[other], cloud.normals[i]) < kSameSide) return;
+        forms.push_back(differences[k][other].form);
+        angles.push_back(differences[k][other].angle);
+      });
+      if (forms.empty()) return;
+      // A tip that differs by more than twice what is usual around it is a stray.
+      const Difference& own = differences[k][i];
+      usual[i] = {std::sqrt(std::max(median(forms), own.form / 4)), std::sqrt(std::max(median(angles), own.angle / 4))};
+    });
+    differences[k] = std::move(usual);
+  }
+  parallel_for(count, 1024, threads, [&](std::size_t i) {
+    std::array<Difference, kSteps> of_tip = {};
+    for (std::size_t k = 1; k < kSteps; ++k) of_tip[k] = differences[k][i];
+    choices_[i] = choice_of(of_tip);
+  });
+}
+
+}  // namespace medial_vk

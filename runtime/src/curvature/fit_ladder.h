@@ -1,0 +1,56 @@
+// Fits with windows of several widths, of which the best is chosen by tip.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <stop_token>
+#include <vector>
+
+#include "curvature/sheet_fit.h"
+#include "curvature/tip_fit.h"
+#include "medial_vk/progress.h"
+
+namespace medial_vk {
+
+/// The radii of the windows on the boundary, in spacings, each about sqrt(2) of the one before.
+inline constexpr std::array kWindows = {5.0, 7.0, 10.0, 14.0, 20.0, 28.0};
+/// The radius of the window on the sheet that gives the spokes, as a share of the one on the boundary.
+inline constexpr double kSheetShare = 0.65;
+
+/// Points closer than this share of a window's radius to another one are left out of it: some 200 remain.
+inline constexpr double kThinning = 1.0 / 9;
+
+/// What one width gives.
+struct LadderStep {
+  TipCloud cloud;                     ///< Two places by ball, those of its two tips.
+  std::vector<std::uint8_t> is_kept;  ///< By tip: that the windows on the boundary hold it.
+  std::vector<std::uint8_t> is_cut;   ///< By ball: that the window on its sheet is cut.
+  std::vector<TipFit> fits;           ///< By tip.
+};
+
+class FitLadder {
+ public:
+  FitLadder(const SheetLinks& links, unsigned threads, const StageProgress& progress, const std::stop_token& stop);
+
+  const LadderStep& step(std::size_t i) const { return steps_[i]; }
+
+  /// The width chosen for a tip, and how much its results differ from those of the next narrower one: medians over
+  /// the tips within half of the window.
+  struct Choice {
+    std::size_t step = 0;         ///< 0: no width gives a result.
+    double form_difference = 0;   ///< 1 / length
+    double angle_difference = 0;  ///< Of the normals, radians.
+  };
+  const Choice& choice(std::size_t tip) const { return choices_[tip]; }
+
+ private:
+  void fit_sheets(const SheetLinks& links, unsigned threads);
+  void fit_tips(std::size_t step, double radius, unsigned threads);
+  void choose(double spacing, unsigned threads);
+
+  std::array<LadderStep, kWindows.size()> steps_;
+  std::vector<Choice> choices_;
+  std::stop_token stop_;
+};
+
+}  // namespace medial_vk
