@@ -41,4 +41,5 @@
 #include "medial_vk/sphere_fits.h"
 #include "medial_vk/sphere_measures.h"
 #include "medial_vk/sphere_proofs.h"
+#include "medial_vk/thickness.h"
 #include "medial_vk/version.h"

@@ -1,0 +1,56 @@
+// Thickness of a solid's walls, and width of the gaps outside it, at points of its boundary, as intervals
+// (docs/theory.md, "Thickness").
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+#include "medial_vk/ball.h"
+#include "medial_vk/indexed_mesh.h"
+#include "medial_vk/progress.h"
+#include "medial_vk/result.h"
+#include "medial_vk/sphere_measures.h"
+
+namespace medial_vk {
+
+/// Balls lie inside the solid, and measure its walls, or outside it, and measure its gaps.
+enum class ThicknessSide : std::uint8_t { kWalls, kGaps };
+
+struct ThicknessOptions {
+  ThicknessSide side = ThicknessSide::kWalls;
+  /// delta, in mesh units: balls count at a point if they come within this distance of it. 0: a two-thousandth of the
+  /// longest side, which is a twentieth of a voxel at resolution 100.
+  double delta = 0;
+  /// Of an interval, relative to its lower end: the search at a point ends when its interval is no wider.
+  double width = 0.01;
+  /// In mesh units: balls are not searched for beyond this diameter. 0: the longest side, which no ball inside exceeds.
+  double limit = 0;
+  std::uint32_t queries = 4000;  ///< Distances that may be computed for a point; then its interval is left wider.
+  unsigned threads = 0;          ///< Of the host, 0: one per core. The result does not depend on it.
+};
+
+/// At a point p.
+struct Thickness {
+  /// Holds T(p, delta), the diameter of the largest ball that comes within delta of p; the limit, if that is less. In
+  /// mesh units, rounded outwards.
+  Bounds diameter;
+  /// A ball of the lower diameter that comes within delta of p; radius 0: none was found.
+  Ball ball;
+  /// Radians: half the greatest angle at its centre between two points of the boundary that the search met within delta
+  /// of the ball, at p among them. Near pi / 2 in a wall, half the turn of the normal at an edge.
+  double object_angle = 0;
+};
+
+/// At each of `points`, usually on the boundary. The radius of a ball is at most the exact distance of its centre from
+/// the boundary, in double precision rounded down, and an upper bound is proved for all centres. Time: about 20
+/// distances per point. Errors: kUsage (a point that is not finite, or an option out of range), kOutOfMemory,
+/// kInterrupted.
+Result<std::vector<Thickness>> measure_thickness(const IndexedMesh& mesh, std::span<const Point> points,
+                                                 const ThicknessOptions& options = {},
+                                                 const ProgressCallback& progress = {},
+                                                 const std::stop_token& stop = {});
+
+}  // namespace medial_vk

@@ -1,0 +1,83 @@
+// What one point of the boundary says about balls that come close to another one, in many directions at once
+// (docs/theory.md, "Thickness").
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "base/point_ops.h"
+#include "medial_vk/sphere_measures.h"
+
+namespace medial_vk {
+
+/// A point q of the boundary, up to rounding, relative to the point p that balls come close to: with `at` = q and
+/// `squared` = |q|^2, no ball around m has a greater squared radius than |m - q|^2 = |m|^2 - 2 m.at + squared. The
+/// right side is linear in both, so a mixture of two contacts, with weights of sum 1, bounds balls as well.
+struct Contact {
+  Point at = {0, 0, 0};
+  double squared = 0;
+};
+
+/// Unit vectors, by axis and then by vector.
+using FourDirections = std::array<std::array<double, 4>, 3>;
+
+/// Bounds are widened by this factor for the rounding of some twenty operations.
+constexpr double kBoundRounding = 1 + 0x1p-46;
+
+/// Where squares are subtracted, they are first changed by this share of them, above the rounding of |q|^2, (u.q)^2 and
+/// their difference.
+constexpr double kSquareRounding = 0x1p-47;
+
+inline std::array<double, 4> along(const FourDirections& directions, const Point& at) {
+  std::array<double, 4> products;
+  for (std::size_t i = 0; i < 4; ++i) {
+    products[i] = directions[0][i] * at[0] + directions[1][i] * at[1] + directions[2][i] * at[2];
+  }
+  return products;
+}
+
+inline double least_of(const std::array<double, 4>& v) { return std::min(std::min(v[0], v[1]), std::min(v[2], v[3])); }
+inline double most_of(const std::array<double, 4>& v) { return std::max(std::max(v[0], v[1]), std::max(v[2], v[3])); }
+
+struct Slack {
+  double distance = 0;  // delta and the rounding of distances
+  double product = 0;   // the same and the rounding of u.q
+};
+
+/// The greatest distance s from p, in a direction u with u.q = `along` for the contact q, of a centre m = s u with
+/// |m - p| <= |m - q| + slack: squared, this is s (2 u.q - 2 slack) <= |q|^2 - slack^2. Infinite if u.q <= slack.
+inline double reach_by(const Contact& contact, double along, const Slack& slack) {
+  const double beyond = along - slack.product;
+  if (!(beyond > 0)) return std::numeric_limits<double>::infinity();
+  const double squared = contact.squared * (1 + kSquareRounding) - slack.distance * slack.distance;
+  return std::max(0.0, squared) / (2 * beyond) * kBoundRounding;
+}
+
+/// Distances from p at which the points in all four directions are within `radius` of the contact; empty if the lower
+/// bound is above the upper one.
+inline Bounds distances_near(const FourDirections& directions, const Contact& contact, double radius) {
+  const std::array<double, 4> products = along(directions, contact.at);
+  const double rest = radius * radius * (1 - kSquareRounding) - contact.squared * (1 + kSquareRounding);
+  Bounds near = {0, std::numeric_limits<double>::infinity()};
+  for (const double product : products) {
+    const double half = std::sqrt(std::max(0.0, rest + product * product));
+    if (!(half > 0)) return {1, 0};
+    near.lower = std::max(near.lower, (product - half) * kBoundRounding);
+    near.upper = std::min(near.upper, (product + half) / kBoundRounding);
+  }
+  return near;
+}
+
+/// The mixture of two contacts whose bound is stationary at m along the ray from p: (m - at).m = 0. None if that is no
+/// mixture with positive weights.
+inline std::optional<Contact> mixture(const Contact& a, const Contact& b, const Point& m) {
+  const double before = dot(m - a.at, m), beyond = dot(b.at - m, m), sum = before + beyond;
+  if (!(before > 0 && beyond > 0)) return std::nullopt;
+  const double of_a = beyond / sum, of_b = before / sum;
+  return Contact{of_a * a.at + of_b * b.at, of_a * a.squared + of_b * b.squared};
+}
+
+}  // namespace medial_vk

@@ -1,0 +1,271 @@
+// Thickness at points of the boundary: solids with known thickness, and the reference's distances along many rays.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <random>
+#include <stop_token>
+#include <vector>
+
+#include "base/point_ops.h"
+#include "cpu_reference/queries.h"
+#include "medial_vk/prepare.h"
+#include "medial_vk/thickness.h"
+#include "support/eigen_points.h"
+#include "support/indexed.h"
+#include "support/reference_mesh.h"
+#include "support/solids/smooth_solids.h"
+#include "support/solids/solids.h"
+
+namespace medial_vk::test {
+namespace {
+
+constexpr double kDelta = 0.004;
+
+ThicknessOptions options_with(ThicknessSide side = ThicknessSide::kWalls) {
+  ThicknessOptions options;
+  options.delta = kDelta;
+  options.side = side;
+  return options;
+}
+
+IndexedMesh solid_of(const Mesh& mesh) { return indexed(prepare_mesh(mesh).value()); }
+
+std::vector<Thickness> thickness_at(const IndexedMesh& mesh, const std::vector<Point>& points,
+                                    const ThicknessOptions& options = options_with()) {
+  return measure_thickness(mesh, points, options).value();
+}
+
+void expect_holds(const Thickness& found, double thickness) {
+  EXPECT_LE(found.diameter.lower, thickness * (1 + 1e-12));
+  EXPECT_GE(found.diameter.upper, thickness * (1 - 1e-12));
+  EXPECT_LE(found.diameter.upper - found.diameter.lower, 0.0101 * thickness);
+}
+
+// A ball of radius r in the corner of two or three perpendicular planes is sqrt(2) r or sqrt(3) r from it.
+TEST(Thickness, OfABox) {
+  const IndexedMesh box = solid_of(make_box({2, 1, 0.4}));
+  const Point upper = box.prepared().report.upper, lower = box.prepared().report.lower, middle = 0.5 * (lower + upper);
+  const std::vector<Thickness> found = thickness_at(box, {{middle[0], middle[1], upper[2]},
+                                                          {middle[0] + 0.3, middle[1] - 0.2, lower[2]},
+                                                          {upper[0], middle[1], upper[2]},
+                                                          upper});
+  expect_holds(found[0], 0.4);
+  expect_holds(found[1], 0.4);
+  expect_holds(found[2], 2 * kDelta / (std::numbers::sqrt2 - 1));
+  expect_holds(found[3], 2 * kDelta / (std::numbers::sqrt3 - 1));
+  // Contacts within delta of the ball: the angle is off by no more than sqrt(2 delta / r) at each of them.
+  EXPECT_NEAR(found[0].object_angle, std::numbers::pi / 2, std::sqrt(2 * kDelta / 0.2));
+}
+
+// The end of a wall between two boxes is a gap; beyond the outer faces there is no other boundary.
+TEST(Thickness, OfAGap) {
+  Mesh both = make_box({1, 1, 1});
+  append(both, moved(make_box({1, 1, 1}), {1.1, 0, 0}));
+  const IndexedMesh mesh = solid_of(both);
+  const Point lower = mesh.prepared().report.lower;
+  const ThicknessOptions options = options_with(ThicknessSide::kGaps);
+  const std::vector<Thickness> found = thickness_at(
+      mesh, {lower + Point{1, 0.5, 0.5}, lower + Point{1.1, 0.4, 0.6}, lower + Point{0, 0.5, 0.5}}, options);
+  expect_holds(found[0], 0.1);
+  expect_holds(found[1], 0.1);
+  EXPECT_EQ(found[2].diameter.lower, mesh.longest_side());
+  EXPECT_EQ(found[2].diameter.upper, mesh.longest_side());
+}
+
+struct Case {
+  const char* name;
+  Mesh mesh;
+  ThicknessSide side = ThicknessSide::kWalls;
+};
+
+std::vector<Case> cases() {
+  Mesh irregular = smooth_ellipsoid(1, 0.7, 0.4)->mesh(900);
+  make_irregular(*smooth_ellipsoid(1, 0.7, 0.4), irregular, 5);
+  return {{"ellipsoid", irregular},
+          {"torus", make_turned_torus(30, 20)},
+          {"cup", make_cup(0.5, 0.05, 1, 24)},
+          {"shell", make_shell(320, 80)},
+          {"L", make_l_shape(1, 0.3, 0.2)},
+          {"plate with a hole", make_plate_with_hole(1, 0.1, 0.3)},
+          {"bent torus", bent(make_turned_torus(24, 16))},
+          {"two parts outside", make_two_parts(160), ThicknessSide::kGaps},
+          {"L outside", make_l_shape(1, 0.3, 0.2), ThicknessSide::kGaps}};
+}
+
+/// The vertices, and points evenly spread over triangles.
+std::vector<Point> points_of(const Mesh& mesh, std::mt19937_64& random) {
+  std::vector<Point> points(mesh.vertices.begin(),
+                            mesh.vertices.begin() + std::min<std::ptrdiff_t>(60, std::ssize(mesh.vertices)));
+  std::uniform_real_distribution<> share(0, 1);
+  std::uniform_int_distribution<std::size_t> triangle(0, mesh.triangles.size() - 1);
+  for (int i = 0; i < 40; ++i) {
+    const Triangle& t = mesh.triangles[triangle(random)];
+    const double a = std::sqrt(share(random)), b = share(random);
+    points.push_back((1 - a) * mesh.vertices[t[0]] + (a * (1 - b)) * mesh.vertices[t[1]] +
+                     (a * b) * mesh.vertices[t[2]]);
+  }
+  return points;
+}
+
+/// The radius of the largest ball that comes within delta of p, of those with centres on a ray, by the reference: they
+/// are the centres up to some distance from p (docs/theory.md, "Thickness"), which bisection finds.
+double radius_along(const reference::Tree& tree, const Point& p, const Point& direction, double limit) {
+  const auto radius_at = [&](double s) { return tree.closest(to_eigen(p + s * direction)).distance; };
+  double near = 0, far = 0.5 * limit + kDelta;
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (near + far);
+    (middle <= radius_at(middle) + kDelta ? near : far) = middle;
+  }
+  double greatest = 0;
+  for (int i = 1; i <= 50; ++i) greatest = std::max(greatest, radius_at(near * i / 50));
+  return std::min(greatest, 0.5 * limit);
+}
+
+class ThicknessOf : public testing::TestWithParam<Case> {};
+
+// The ball of the lower bound is where it should be, and no ray of many, those near its centre among them, has a ball
+// larger than the upper bound.
+TEST_P(ThicknessOf, HoldsWhatTheReferenceFinds) {
+  const PreparedMesh prepared = prepare_mesh(GetParam().mesh).value();
+  const IndexedMesh mesh = indexed(prepared);
+  const reference::Tree tree(to_reference(prepared));
+  std::mt19937_64 random(11);
+  std::normal_distribution<> normal;
+  const std::vector<Point> points = points_of(prepared.mesh, random);
+  const ThicknessOptions options = options_with(GetParam().side);
+  const bool walls = GetParam().side == ThicknessSide::kWalls;
+  const std::vector<Thickness> found = thickness_at(mesh, points, options);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    SCOPED_TRACE(testing::Message() << "point " << i << " at " << testing::PrintToString(points[i]));
+    const auto& [diameter, ball, angle] = found[i];
+    EXPECT_LE(diameter.upper - diameter.lower, 0.0101 * diameter.upper);
+    EXPECT_EQ(diameter.lower, 2 * ball.radius);
+    ASSERT_GT(ball.radius, 0);
+    EXPECT_LE(ball.radius, tree.closest(to_eigen(ball.centre)).distance);
+    EXPECT_LE(length(ball.centre - points[i]), ball.radius + kDelta);
+    EXPECT_EQ(winding_number(tree, to_eigen(ball.centre), 0.01) > 0.5, walls);
+    const Point best = (1 / length(ball.centre - points[i])) * (ball.centre - points[i]);
+    for (int k = 0; k < 60; ++k) {
+      const double spread = k < 20 ? 0.02 : k < 40 ? 0.2 : 5;
+      Point direction = best + spread * Point{normal(random), normal(random), normal(random)};
+      direction = (1 / length(direction)) * direction;
+      const double radius = radius_along(tree, points[i], direction, mesh.longest_side());
+      if (2 * radius <= diameter.upper) continue;
+      // A larger ball is on the other side.
+      const Point beside = points[i] + (kDelta + radius) * direction;
+      EXPECT_EQ(winding_number(tree, to_eigen(beside), 0.01) > 0.5, !walls) << 2 * radius << " > " << diameter.upper;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Solids, ThicknessOf, testing::ValuesIn(cases()), [](const auto& example) {
+  std::string name = example.param.name;
+  std::erase(name, ' ');
+  return name;
+});
+
+// Triangulation and rotation change the surface a little, or nothing: intervals of one point have a common number.
+TEST(Thickness, IsThatOfATurnedMesh) {
+  const Mesh mesh = make_turned_torus(40, 24);
+  Mesh turned = mesh;
+  rotate(turned, {1, 2, 3}, 0.7);
+  const std::vector<Thickness> a = thickness_at(solid_of(mesh), mesh.vertices),
+                               b = thickness_at(solid_of(turned), turned.vertices);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    // Coordinates of the turned mesh are rounded, which delta and radii hold many times.
+    EXPECT_LE(a[i].diameter.lower, b[i].diameter.upper * (1 + 1e-9)) << i;
+    EXPECT_LE(b[i].diameter.lower, a[i].diameter.upper * (1 + 1e-9)) << i;
+  }
+}
+
+TEST(Thickness, DoesNotDependOnThreads) {
+  const Mesh mesh = make_turned_torus(40, 24);
+  ThicknessOptions one = options_with(), three = one;
+  one.threads = 1;
+  three.threads = 3;
+  const IndexedMesh solid = solid_of(mesh);
+  const std::vector<Thickness> a = thickness_at(solid, mesh.vertices, one),
+                               b = thickness_at(solid, mesh.vertices, three);
+  EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(Thickness)), 0);
+}
+
+// Without its top, a box encloses the points whose winding number is at least 1/2.
+TEST(Thickness, OfAnOpenMesh) {
+  Mesh box = make_box({1, 1, 1});
+  std::erase_if(box.triangles, [&](const Triangle& t) {
+    return std::ranges::all_of(
+        t, [&](std::uint32_t v) { return box.vertices[v][2] == box.vertices[box.triangles.front()[0]][2]; });
+  });
+  const IndexedMesh mesh = solid_of(box);
+  ASSERT_FALSE(mesh.prepared().report.closed);
+  const reference::Tree tree(to_reference(mesh.prepared()));
+  for (const Thickness& found : thickness_at(mesh, mesh.prepared().mesh.vertices)) {
+    EXPECT_LE(found.diameter.lower, found.diameter.upper);
+    if (found.ball.radius == 0) continue;
+    EXPECT_LE(found.ball.radius, tree.closest(to_eigen(found.ball.centre)).distance);
+    EXPECT_GE(winding_number(tree, to_eigen(found.ball.centre), 0.001), 0.499);
+  }
+}
+
+// A budget of few distances leaves an interval that is wider, and holds the thickness all the same.
+TEST(Thickness, WithinABudget) {
+  const IndexedMesh mesh = solid_of(make_turned_torus(40, 24));
+  ThicknessOptions few = options_with();
+  few.queries = 12;
+  const std::vector<Thickness> wide = thickness_at(mesh, mesh.prepared().mesh.vertices, few),
+                               all = thickness_at(mesh, mesh.prepared().mesh.vertices);
+  std::size_t wider = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_LE(wide[i].diameter.lower, all[i].diameter.upper);
+    EXPECT_GE(wide[i].diameter.upper, all[i].diameter.lower);
+    wider += wide[i].diameter.upper > 1.02 * wide[i].diameter.lower ? 1 : 0;
+  }
+  EXPECT_GT(wider, 0u);
+}
+
+TEST(Thickness, RefusesWhatIsWrong) {
+  const IndexedMesh mesh = solid_of(make_box({1, 1, 1}));
+  const auto message_of = [&](std::vector<Point> points, const ThicknessOptions& options) {
+    const auto found = measure_thickness(mesh, points, options);
+    if (found.ok()) return std::string();
+    EXPECT_EQ(found.error().code, ErrorCode::kUsage);
+    return found.error().message;
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  ThicknessOptions options;
+  EXPECT_EQ(message_of({{0, 0, nan}}, options), "`points` must have coordinates of at most 1e18");
+  options.delta = -1;
+  EXPECT_EQ(message_of({}, options), "`delta` must be a length, or 0");
+  options = {};
+  options.limit = nan;
+  EXPECT_EQ(message_of({}, options), "`limit` must be a length, or 0");
+  options = {};
+  options.width = 0;
+  EXPECT_EQ(message_of({}, options), "`width` must be from 1e-6 to 1");
+  options = {};
+  options.queries = 0;
+  EXPECT_EQ(message_of({}, options), "`queries` must be positive");
+  EXPECT_EQ(message_of({}, {}), "");
+}
+
+TEST(Thickness, CanBeStopped) {
+  const IndexedMesh mesh = solid_of(make_turned_torus(40, 24));
+  std::stop_source source;
+  double done = 0;
+  const auto found = measure_thickness(
+      mesh, mesh.prepared().mesh.vertices, options_with(),
+      [&](double share) {
+        done = share;
+        source.request_stop();
+      },
+      source.get_token());
+  ASSERT_FALSE(found.ok());
+  EXPECT_EQ(found.error().code, ErrorCode::kInterrupted);
+  EXPECT_GT(done, 0);
+  EXPECT_LT(done, 1);
+}
+
+}  // namespace
+}  // namespace medial_vk::test
