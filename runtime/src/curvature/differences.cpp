@@ -111,22 +111,29 @@ bool SpokeDifferences::find_step(std::uint32_t ball, const Point& direction, dou
 bool SpokeDifferences::find_basis(std::uint32_t ball, Basis& basis) const {
   const Point normal = normal_of(ball);
   if (!(dot(normal, normal) > 0)) return false;
+  double step = step_;
+  while (step >= least_step_) {
+    if (find_basis_with(step, ball, normal, basis)) return true;
+    step *= kShorter;
+  }
+  return false;
+}
+
+bool SpokeDifferences::find_basis_with(double step, std::uint32_t ball, const Point& normal, Basis& basis) const {
   const Point direction = perpendicular_to(normal);
-  for (double step = step_; step >= least_step_; step *= kShorter) {
-    for (const double sign : {1.0, -1.0}) {
-      Neighbour next{};
-      if (!find_step(ball, sign * direction, step, next)) continue;
-      basis.length = next.length;
-      basis.first = 1 / next.length * (centres_[next.ball] - centres_[ball]);
-      basis.second = unit(cross(normal, basis.first));
-      basis.normal = cross(basis.first, basis.second);
-      basis.at_first = aligned(next.ball, normal);
-      const Point place = centres_[ball] + next.length * basis.second;
-      bool found = false;
-      for (const double least_cosine : {kSimilarDot, -1.0}) {
-        basis.at_second = average(place, kAverageShare * step_, normal, least_cosine, found);
-        if (found) return true;
-      }
+  for (const double sign : {1.0, -1.0}) {
+    Neighbour next{};
+    if (!find_step(ball, sign * direction, step, next)) continue;
+    basis.length = next.length;
+    basis.first = 1 / next.length * (centres_[next.ball] - centres_[ball]);
+    basis.second = unit(cross(normal, basis.first));
+    basis.normal = cross(basis.first, basis.second);
+    basis.at_first = aligned(next.ball, normal);
+    const Point place = centres_[ball] + next.length * basis.second;
+    bool found = false;
+    for (const double least_cosine : {kSimilarDot, -1.0}) {
+      basis.at_second = average(place, kAverageShare * step_, normal, least_cosine, found);
+      if (found) return true;
     }
   }
   return false;

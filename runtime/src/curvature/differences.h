@@ -36,6 +36,7 @@ class SpokeDifferences {
   SpokePair average(const Point& place, double reach, const Point& normal, double least_cosine, bool& found) const;
   bool find_step(std::uint32_t ball, const Point& direction, double step, Neighbour& found) const;
   bool find_basis(std::uint32_t ball, Basis& basis) const;
+  bool find_basis_with(double step, std::uint32_t ball, const Point& normal, Basis& basis) const;
 
   std::span<const Ball> balls_;
   std::vector<SpokePair> spokes_;
