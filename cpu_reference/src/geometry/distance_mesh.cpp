@@ -133,7 +133,7 @@ DistanceMesh::DistanceMesh(const Mesh& mesh) : components_(one_of_each_component
   for (std::size_t i = 0; i < balls_.size(); i += kRun) {
     runs_.push_back(ball_around(balls_.data() + i, balls_.data() + std::min(balls_.size(), i + kRun)));
   }
-  whole_ = ball_around(runs_.data(), runs_.data() + runs_.size());
+  if (!runs_.empty()) whole_ = ball_around(runs_.data(), runs_.data() + runs_.size());
 }
 
 NearestPair nearest_of_meshes(const DistanceMesh& a, const DistanceMesh& b, const Motion& motion) {

@@ -12,8 +12,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// How the winding number changes along the segment from p to q where it passes through the triangle: 1 where it comes
-/// out in front. No value: it passes a corner, an edge or an end of the segment, or a triangle without area.
+/// By how much the winding number is greater before the triangle than beyond it, where the segment from p to q passes
+/// through: 1 where it comes out in front. No value: it passes a corner, an edge or an end of the segment, or a
+/// triangle without area.
 std::optional<int> change_across(const Vector3d& p, const Vector3d& q, const Corners& triangle) {
   const auto& [a, b, c] = triangle;
   const double x = corner_volume(p, q, a, b), y = corner_volume(p, q, b, c), z = corner_volume(p, q, c, a);

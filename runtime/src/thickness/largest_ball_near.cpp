@@ -16,7 +16,7 @@ constexpr double kLeastShare = 0x1p-4;
 constexpr std::size_t kMostOthers = 8, kMostKept = 40;
 
 /// Cells with a greater reach are divided first.
-constexpr auto is_later = [](const auto& a, const auto& b) {
+constexpr auto kIsLater = [](const auto& a, const auto& b) {
   return a.reach != b.reach ? a.reach < b.reach : a.number > b.number;
 };
 
@@ -84,7 +84,7 @@ double LargestBallNear::least_reach() const { return target() - off_; }
 
 /// Closes the cell with the greatest reach, or replaces it by its parts.
 void LargestBallNear::divide(const CubeFrame& frame) {
-  std::pop_heap(open_.begin(), open_.end(), is_later);
+  std::pop_heap(open_.begin(), open_.end(), kIsLater);
   Open open = open_.back();
   open_.pop_back();
   evaluate(open);
@@ -112,7 +112,7 @@ void LargestBallNear::push(Open open) {
   if (open.reach <= least_reach()) return;
   open.number = number_++;
   open_.push_back(open);
-  std::push_heap(open_.begin(), open_.end(), is_later);
+  std::push_heap(open_.begin(), open_.end(), kIsLater);
 }
 
 void LargestBallNear::evaluate(Open& open) {
@@ -132,12 +132,11 @@ bool LargestBallNear::is_closed(const Open& open) {
 /// True if all centres in question are in one ball on the other side.
 bool LargestBallNear::is_on_other_side(const Open& open) const {
   const double from = least_reach() / kBoundRounding, to = open.reach * open.cell.bulge();
-  for (const Ball& other : others_) {
+  return std::ranges::any_of(others_, [&](const Ball& other) {
     const Contact centre = {other.centre, dot(other.centre, other.centre)};
-    const Bounds near = distances_near(open.cell.corners(), centre, other.radius / kBoundRounding);
-    if (near.lower <= from && to <= near.upper) return true;
-  }
-  return false;
+    const Bounds near = distances_near(open.cell.corners(), centre, other.radius - rounding_);
+    return near.lower <= from && to <= near.upper;
+  });
 }
 
 /// The least distance from p, above the target, at which centres in these directions may have balls larger than the
