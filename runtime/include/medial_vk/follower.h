@@ -37,7 +37,8 @@ struct FollowerOptions {
   double object_angle = 0.5;
   /// kTangent, for closed meshes: the greatest number of balls that are chosen anew in a frame. Such a ball leaves its
   /// place for one at a gap between the surface and the balls, if the union grows by that. A frame in which this is
-  /// tried takes the time of some fifteen measure_ball_union(), any other frame that of one.
+  /// tried takes the time of some fifteen measure_ball_union(); any other frame takes no time for it with a step, and
+  /// that of one measure_ball_union() without.
   std::uint32_t renewed = 0;
   /// It is tried in frames whose uncovered share of the volume is more than this many times that in the rest pose (by
   /// FollowMeasures); from 1 up.
