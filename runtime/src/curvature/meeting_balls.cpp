@@ -10,7 +10,8 @@ MeetingBalls::MeetingBalls(std::span<const Ball> balls, const std::vector<std::u
     if (is_left_out[i] == 0) by_size[std::ilogb(balls[i].radius)].push_back(i);
   }
   for (const auto& [exponent, members] : by_size) {
-    Group& group = groups_.emplace_back(Group{std::ldexp(1.0, exponent + 1), {}, {}, PointGrid({}, 0)});
+    groups_.push_back({std::ldexp(1.0, exponent + 1), {}, {}, PointGrid({}, 0)});
+    Group& group = groups_.back();
     group.radii.reserve(members.size());
     group.centres.reserve(members.size());
     for (const std::uint32_t i : members) {

@@ -117,7 +117,7 @@ LocalShape SheetLinks::shape_around(std::uint32_t ball) const {
     return is_apart ? point : LocalShape{};
   }
   const auto axes = wide.axes();
-  const Eigen::Vector3d variances = axes.eigenvalues();
+  const Eigen::Vector3d& variances = axes.eigenvalues();
   if (variances[1] <= kCurveShare * variances[2]) {
     // The width itself, for half of it: that of the centres is less than that of the strip which they are scattered in.
     const double across = range_across(ball, column(axes.eigenvectors(), 1));
