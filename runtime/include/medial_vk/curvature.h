@@ -37,15 +37,25 @@ struct CurvatureOptions {
 
 /// What is known of the boundary at the tip of a spoke.
 enum class CurvatureState : std::uint8_t {
-  kKnown,      ///< Both curvatures.
-  kCut,        ///< Both curvatures, from a window that a rim or a seam of the sheet cuts: on one side of the ball.
-  kCurve,      ///< The ball lies on a medial curve: kappa[0] alone, 1 / radius, in the plane across the curve.
-  kPoint,      ///< The ball lies apart from all others: the boundary is its sphere, and both curvatures 1 / radius.
-  kSeam,       ///< Unknown: sheets meet here.
-  kFew,        ///< Unknown: too few neighbours.
-  kNested,     ///< Unknown: the ball all but lies in another one, as those at noise of the boundary do.
-  kFocal,      ///< Unknown: the radial curvature condition fails, r kappa >= 1 (Definition 5.1).
-  kUncertain,  ///< Unknown: windows of different widths disagree by more than a quarter of the greater curvature.
+  kKnown,  ///< Both curvatures.
+  kCut,    ///< Both curvatures, from a window that a rim or a seam of the sheet cuts: on one side of the ball.
+  /// The ball lies on a medial curve, or on a strip less than two spacings wide, and touches in a circle: kappa[0]
+  /// alone, 1 / radius, along that circle. The plane of the circle is perpendicular to the curve.
+  kCurve,
+  /// No other ball overlaps this one, but for those in it and those whose centres all but coincide with its centre: the
+  /// boundary is its sphere, and both curvatures are 1 / radius.
+  kPoint,
+  kSeam,    ///< Unknown: sheets meet here.
+  kFew,     ///< Unknown: too few neighbours.
+  kNested,  ///< Unknown: the ball all but lies in another one, as those at noise of the boundary do.
+  /// Unknown. Fits: r kappa >= 1, so that the fit is impossible (a ball that touches from inside has r kappa <= 1) or
+  /// the tip is at a rim, where r kappa is 1. Differences: the radial curvature condition fails, r kappa_r >= 1
+  /// (Definition 5.1).
+  kFocal,
+  /// Unknown. Fits: `error`, three times the difference of windows, would be above a quarter of the greater curvature
+  /// or of 0.1 / r, whichever is more; they differ by more than a twelfth of that. Differences: the eigenvalues of the
+  /// radial shape operator are complex.
+  kUncertain,
 };
 
 /// True for the states in which both curvatures and the spoke are values from fits or differences.
@@ -60,13 +70,19 @@ struct TipCurvature {
   /// Principal curvatures, the greater one first, positive where the boundary is convex, in 1 / units of the balls.
   std::array<double, 2> kappa = {kUnknown, kUnknown};
   /// Unit vectors of the principal directions, tangent at the tip; signs are arbitrary. On a medial curve only the
-  /// second one is known: the tangent of the curve.
+  /// second one is given, the tangent of the curve: it is tangent to the boundary, and a principal direction, only
+  /// where the radius does not change. With the rate r' at which the radius changes along the curve, it lies in the
+  /// plane of the principal direction and the spoke, at the angle asin |r'| from the boundary.
   std::array<Point, 2> directions = {Point{kUnknown, kUnknown, kUnknown}, Point{kUnknown, kUnknown, kUnknown}};
   /// An estimate of the error of both curvatures, in the same units, which includes what the window averages away
-  /// (bias). It is no bound: docs/accuracy.md has the shares of points whose error is below it.
+  /// (bias). It is no bound: docs/accuracy.md has the shares of points whose error is below it. kCurve: w / r^2, where
+  /// w is half the width of the strip of centres, or more, at most a spacing; it does not cover strips with flat faces.
+  /// kPoint: w / r^2, where w is the distance of the farthest centre that counts as one with that of the ball.
+  /// kDifferences: not known.
   double error = kUnknown;
-  double spread = kUnknown;        ///< The standard deviation of the curvatures by the residuals of the fit alone.
-  double normal_error = kUnknown;  ///< An estimate of the error of the spoke, radians.
+  /// The standard deviation of the curvatures by the residuals of the fit alone; of kFits.
+  double spread = kUnknown;
+  double normal_error = kUnknown;  ///< An estimate of the error of the spoke, radians; of kFits.
   double window = kUnknown;        ///< The radius of the window on the boundary, in the units of the balls.
 };
 
@@ -86,11 +102,15 @@ struct SpokePair {
 };
 
 /// Measures the boundary at both tips of each ball. Method kFits uses centres and radii alone; `spokes`, one pair per
-/// ball or none, then only decide which tip is the first; `progress` is called on the calling thread, with the stages
-/// "sheets", "tips" and "windows". Time: a millisecond of one core for each ball; memory: 3 kB for each. Does not
-/// throw. Errors: kUsage (a number that is not finite, a radius that is not positive, a spoke that is not of unit
-/// length, an option out of range, numbers of balls and spokes that differ, no spokes for kDifferences, 2^31 balls or
-/// more), kInterrupted, kOutOfMemory.
+/// ball or none, then only decide which tip is the first. Balls in another order can change results within their
+/// errors: of crowded balls, those of lower numbers stay in wide windows. `progress` is called on the calling thread,
+/// with the stages "sheets", "tips" and "windows"; kDifferences does not call it. `stop` ends the fits of sheets and
+/// tips and the choice of windows, and the differences, within some milliseconds; the estimate of the spacing, the
+/// search for neighbours, the thinning of balls and tips and the smoothing of spokes run to their ends first. Time of
+/// kFits: about a millisecond of one core, and memory: 3 kB, for each of balls spread evenly; more where many lie
+/// within one spacing. Does not throw. Errors: kUsage (a number that is not finite, a coordinate, radius, spacing or
+/// step beyond 1e18, a radius that is not positive, a spoke that is not of unit length, an option out of range, numbers
+/// of balls and spokes that differ, no spokes for kDifferences, 2^31 balls or more), kInterrupted, kOutOfMemory.
 Result<BoundaryCurvature> measure_curvature(std::span<const Ball> balls, const CurvatureOptions& options = {},
                                             std::span<const SpokePair> spokes = {}, const StageProgress& progress = {},
                                             const std::stop_token& stop = {});

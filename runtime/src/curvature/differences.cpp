@@ -11,13 +11,6 @@ constexpr double kStepTolerance = 0.2;        // epsilon_1
 constexpr double kAverageShare = 0.25;        // epsilon_2 over the step; also sigma of Section 5.4.1 as it is read here
 constexpr double kShorter = 0.75;             // a step is decreased by this factor
 
-std::vector<Point> middles_of(std::span<const Ball> balls) {
-  std::vector<Point> out;
-  out.reserve(balls.size());
-  for (const Ball& ball : balls) out.push_back(ball.centre);
-  return out;
-}
-
 Point unit(const Point& v) {
   const double norm = length(v);
   return norm > 0 ? 1 / norm * v : Point{0, 0, 0};
@@ -52,7 +45,7 @@ SpokeDifferences::SpokeDifferences(std::span<const Ball> balls, std::span<const 
                                    const CurvatureOptions& options)
     : balls_(balls),
       spokes_(spokes.begin(), spokes.end()),
-      centres_(middles_of(balls)),
+      centres_(centres_of(balls)),
       step_(options.step * spacing),
       least_step_(2 * std::numbers::sqrt3 * spacing),
       grid_(centres_, step_ / 3) {

@@ -37,15 +37,33 @@ double median(std::vector<double>& values) {
 /// differences were bias, of which the next narrower one has a quarter.
 FitLadder::Choice choice_of(const std::array<Difference, kSteps>& differences) {
   FitLadder::Choice best;
-  double least_form = 0;
+  double least_form = 0, least_angle = 0;
   for (std::size_t i = kSteps - 1; i > 0; --i) {
     const Difference& at = differences[i];
     least_form *= kBiasShare;
+    least_angle *= kBiasShare;
     if (std::isnan(at.form)) continue;
     least_form = std::max(least_form, at.form);
-    if (best.step == 0 || least_form < best.form_difference) best = {i, least_form, at.angle};
+    least_angle = std::max(least_angle, at.angle);
+    if (best.step == 0 || least_form < best.form_difference) best = {i, least_form, least_angle};
   }
   return best;
+}
+
+/// Leaves the tips that are known, without gaps: all others lie in one place.
+void compact(const std::vector<std::uint8_t>& is_used, LadderStep& step) {
+  TipCloud& cloud = step.cloud;
+  const auto known = static_cast<std::size_t>(std::ranges::count(is_used, std::uint8_t{1}));
+  step.numbers.reserve(known);
+  for (std::uint32_t i = 0; i < is_used.size(); ++i) {
+    if (is_used[i] == 0) continue;
+    const std::size_t place = step.numbers.size();
+    cloud.tips[place] = cloud.tips[i];
+    cloud.normals[place] = cloud.normals[i];
+    step.numbers.push_back(i);
+  }
+  cloud.tips.resize(known);
+  cloud.normals.resize(known);
 }
 
 }  // namespace
@@ -71,11 +89,12 @@ FitLadder::FitLadder(const SheetLinks& links, unsigned threads, const StageProgr
 void FitLadder::fit_sheets(const SheetLinks& links, unsigned threads) {
   const std::size_t count = links.balls().size();
   for (LadderStep& step : steps_) {
-    step.cloud = {std::vector<Point>(2 * count), std::vector<Point>(2 * count), std::vector<std::uint8_t>(2 * count)};
+    step.cloud = {std::vector<Point>(2 * count), std::vector<Point>(2 * count)};
     step.is_cut.resize(count);
   }
-  std::array<std::vector<std::uint8_t>, kSteps> kept;
+  std::array<std::vector<std::uint8_t>, kSteps> kept, used;
   for (std::size_t k = 0; k < kSteps; ++k) {
+    used[k].resize(2 * count);
     kept[k].assign(count, 1);
     thin_out(links.centres(), links.grid(), kThinning * kSheetShare * kWindows[k] * links.spacing(), kept[k]);
   }
@@ -93,22 +112,23 @@ void FitLadder::fit_sheets(const SheetLinks& links, unsigned threads) {
         for (std::size_t side = 0; side < 2; ++side) {
           steps_[k].cloud.tips[2 * i + side] = fit.tips[side];
           steps_[k].cloud.normals[2 * i + side] = fit.spokes[side];
-          steps_[k].cloud.is_used[2 * i + side] = 1;
+          used[k][2 * i + side] = 1;
         }
       }
     }
   });
+  for (std::size_t k = 0; k < kSteps; ++k) compact(used[k], steps_[k]);
 }
 
 void FitLadder::fit_tips(std::size_t step, double radius, unsigned threads) {
   LadderStep& at = steps_[step];
-  at.fits.resize(at.cloud.tips.size());
+  at.fits.resize(2 * at.is_cut.size());
   const PointGrid grid(at.cloud.tips, radius / 3);
-  at.is_kept = at.cloud.is_used;
+  at.is_kept.assign(at.numbers.size(), 1);
   thin_out(at.cloud.tips, grid, kThinning * radius, at.is_kept);
-  parallel_for(at.fits.size(), 64, threads, [&](std::size_t i) {
-    if (at.cloud.is_used[i] == 0 || stop_.stop_requested()) return;
-    at.fits[i] = fit_tip(at.cloud, at.is_kept, grid, static_cast<std::uint32_t>(i), radius, step > 1);
+  parallel_for(at.numbers.size(), 64, threads, [&](std::size_t i) {
+    if (stop_.stop_requested()) return;
+    at.fits[at.numbers[i]] = fit_tip(at.cloud, at.is_kept, grid, static_cast<std::uint32_t>(i), radius, step > 1);
   });
 }
 
@@ -121,15 +141,18 @@ void FitLadder::choose(double spacing, unsigned threads) {
     // The median over the tips around, in the place of the value of one: those at a rim may differ much more.
     std::vector<Difference> usual(count, Difference{std::nan(""), std::nan("")});
     const TipCloud& cloud = steps_[k].cloud;
+    const std::vector<std::uint32_t>& numbers = steps_[k].numbers;
     const PointGrid grid(cloud.tips, kWindows[k] * spacing / 4);
-    parallel_for(count, 64, threads, [&](std::size_t i) {
+    parallel_for(numbers.size(), 64, threads, [&](std::size_t place) {
+      const std::uint32_t i = numbers[place];
       if (stop_.stop_requested() || std::isnan(differences[k][i].form)) return;
       std::vector<double> forms, angles;
-      grid.visit_within(cloud.tips[i], kWindows[k] / 2 * spacing, [&](std::uint32_t other, double) {
-        if (steps_[k].is_kept[other] == 0 || std::isnan(differences[k][other].form)) return;
-        if (dot(cloud.normals[other], cloud.normals[i]) < kSameSide) return;
-        forms.push_back(differences[k][other].form);
-        angles.push_back(differences[k][other].angle);
+      grid.visit_within(cloud.tips[place], kWindows[k] / 2 * spacing, [&](std::uint32_t other, double) {
+        const Difference& there = differences[k][numbers[other]];
+        if (steps_[k].is_kept[other] == 0 || std::isnan(there.form)) return;
+        if (dot(cloud.normals[other], cloud.normals[place]) < kSameSide) return;
+        forms.push_back(there.form);
+        angles.push_back(there.angle);
       });
       if (forms.empty()) return;
       // A tip that differs by more than twice what is usual around it is a stray.

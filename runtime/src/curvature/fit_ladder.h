@@ -22,10 +22,11 @@ inline constexpr double kThinning = 1.0 / 9;
 
 /// What one width gives.
 struct LadderStep {
-  TipCloud cloud;                     ///< Two places by ball, those of its two tips.
-  std::vector<std::uint8_t> is_kept;  ///< By tip: that the windows on the boundary hold it.
-  std::vector<std::uint8_t> is_cut;   ///< By ball: that the window on its sheet is cut.
-  std::vector<TipFit> fits;           ///< By tip.
+  TipCloud cloud;                      ///< The tips that are known.
+  std::vector<std::uint32_t> numbers;  ///< Of those: twice the ball's, and one more for its second tip; ascending.
+  std::vector<std::uint8_t> is_kept;   ///< By place in the cloud: that the windows on the boundary hold it.
+  std::vector<std::uint8_t> is_cut;    ///< By ball: that the window on its sheet is cut.
+  std::vector<TipFit> fits;            ///< By number of the tip.
 };
 
 class FitLadder {

@@ -14,18 +14,21 @@ namespace {
 // Of the difference between two windows, so that 90 % of the true errors on the solids of docs/accuracy.md are smaller.
 constexpr double kErrorFactor = 3;
 constexpr double kUncertainShare = 0.25;
+constexpr double kMostOfAll = 1e18;  // squares and products of what is smaller stay far from the ends of double
 
-bool is_finite(const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
+bool is_near(double x) { return std::fabs(x) <= kMostOfAll; }  // not if NaN
 
-bool is_unit(const Point& p) { return is_finite(p) && std::fabs(dot(p, p) - 1) < 1e-3; }
+bool is_near(const Point& p) { return is_near(p[0]) && is_near(p[1]) && is_near(p[2]); }
+
+bool is_unit(const Point& p) { return std::fabs(dot(p, p) - 1) < 1e-3; }
 
 Status check(std::span<const Ball> balls, const CurvatureOptions& options, std::span<const SpokePair> spokes) {
   const auto usage = [](const std::string& message) { return Error{ErrorCode::kUsage, message}; };
   if (balls.size() >= std::size_t{1} << 31) return usage("there are 2^31 balls or more");
   for (std::size_t i = 0; i < balls.size(); ++i) {
     const Ball& ball = balls[i];
-    if (!is_finite(ball.centre) || !std::isfinite(ball.radius) || !(ball.radius > 0)) {
-      return usage("ball " + std::to_string(i) + " must have a finite centre and a positive radius");
+    if (!is_near(ball.centre) || !is_near(ball.radius) || !(ball.radius > 0)) {
+      return usage("ball " + std::to_string(i) + " must have a positive radius, and no number beyond 1e18");
     }
   }
   if (!spokes.empty() && spokes.size() != balls.size()) {
@@ -36,16 +39,16 @@ Status check(std::span<const Ball> balls, const CurvatureOptions& options, std::
       return usage("the spokes of ball " + std::to_string(i) + " must be unit vectors");
     }
   }
-  if (!std::isfinite(options.spacing) || options.spacing < 0) {
-    return usage("the spacing of balls must be positive, or 0 to estimate it");
+  if (!is_near(options.spacing) || options.spacing < 0) {
+    return usage("the spacing of balls must be positive and at most 1e18, or 0 to estimate it");
   }
   if (options.method != CurvatureMethod::kFits && options.method != CurvatureMethod::kDifferences) {
     return usage("there is no such method of measuring curvature");
   }
   if (options.method == CurvatureMethod::kFits) return {};
   if (spokes.empty() && !balls.empty()) return usage("finite differences need the spokes of the balls");
-  if (!std::isfinite(options.step) || options.step < 2 * std::numbers::sqrt3) {
-    return usage("the step of finite differences must be at least 2 sqrt(3) spacings");
+  if (!is_near(options.step) || options.step < 2 * std::numbers::sqrt3) {
+    return usage("the step of finite differences must be at least 2 sqrt(3) spacings, and at most 1e18");
   }
   return {};
 }
@@ -76,6 +79,9 @@ TipCurvature tip_of(const SheetLinks& links, const FitLadder& ladder, std::uint3
     tip.directions[1] = shape.direction;
   }
   if (shape.state == CurvatureState::kPoint) tip.kappa = {1 / radius, 1 / radius};
+  if (shape.state == CurvatureState::kCurve || shape.state == CurvatureState::kPoint) {
+    tip.error = shape.blur / radius / radius;
+  }
   if (shape.state != CurvatureState::kKnown) return tip;
   const std::size_t at = 2 * std::size_t{ball} + side;
   const FitLadder::Choice& choice = ladder.choice(at);
@@ -106,20 +112,20 @@ BallCurvature ball_of(const SheetLinks& links, const FitLadder& ladder, std::uin
   return out;
 }
 
-/// The tips in the order of the given spokes.
+/// The tips in the order of the given spokes. What is not known of one of them leaves it to the other one.
 void name_tips(const SpokePair& given, BallCurvature& ball) {
-  const Point &u = ball.tips[0].normal, &v = ball.tips[1].normal;
-  if (dot(u, given.b) + dot(v, given.a) > dot(u, given.a) + dot(v, given.b)) std::swap(ball.tips[0], ball.tips[1]);
+  const Point turn = given.b - given.a;
+  double gain = 0;
+  if (const double of_first = dot(ball.tips[0].normal, turn); !std::isnan(of_first)) gain += of_first;
+  if (const double of_second = dot(ball.tips[1].normal, turn); !std::isnan(of_second)) gain -= of_second;
+  if (gain > 0) std::swap(ball.tips[0], ball.tips[1]);
 }
 
 Result<BoundaryCurvature> measure(std::span<const Ball> balls, const CurvatureOptions& options,
                                   std::span<const SpokePair> spokes, const StageProgress& progress,
                                   const std::stop_token& stop) {
   BoundaryCurvature out;
-  std::vector<Point> centres;
-  centres.reserve(balls.size());
-  for (const Ball& ball : balls) centres.push_back(ball.centre);
-  out.spacing = options.spacing > 0 ? options.spacing : estimated_spacing(centres, options.threads);
+  out.spacing = options.spacing > 0 ? options.spacing : estimated_spacing(centres_of(balls), options.threads);
   out.balls.resize(balls.size());
   // Balls all in one place have no spacing: none has a neighbour.
   const double spacing = out.spacing > 0 ? out.spacing : 1;

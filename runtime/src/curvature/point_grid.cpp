@@ -1,5 +1,6 @@
 #include "curvature/point_grid.h"
 
+#include <limits>
 #include <numbers>
 
 #include "base/parallel.h"
@@ -49,7 +50,7 @@ double estimated_spacing(std::span<const Point> points, unsigned threads) {
   const std::size_t count = points.size(), rank = std::min<std::size_t>(16, count - 1);
   const double extent = extent_of(points);
   if (!(extent > 0)) return 0;
-  const double cell = extent / std::sqrt(static_cast<double>(count));
+  const double cell = std::max(extent / std::sqrt(static_cast<double>(count)), std::numeric_limits<double>::min());
   const PointGrid grid(points, cell);
   std::vector<double> spacings(count);
   parallel_blocks(count, 256, threads, [&](std::size_t begin, std::size_t end) {
@@ -58,7 +59,8 @@ double estimated_spacing(std::span<const Point> points, unsigned threads) {
       for (double radius = 2 * cell;; radius *= 2) {
         squared.clear();
         grid.visit_within(points[i], radius, [&](std::uint32_t, double d2) { squared.push_back(d2); });
-        if (squared.size() > rank) break;
+        // A box of this side is 1.8 times as long across: all points are found.
+        if (squared.size() > rank || radius >= 2 * extent) break;
       }
       const auto nth = squared.begin() + static_cast<std::ptrdiff_t>(rank);
       std::nth_element(squared.begin(), nth, squared.end());
@@ -68,6 +70,13 @@ double estimated_spacing(std::span<const Point> points, unsigned threads) {
   const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(count / 2);
   std::nth_element(spacings.begin(), middle, spacings.end());
   return *middle;
+}
+
+std::vector<Point> centres_of(std::span<const Ball> balls) {
+  std::vector<Point> centres;
+  centres.reserve(balls.size());
+  for (const Ball& ball : balls) centres.push_back(ball.centre);
+  return centres;
 }
 
 }  // namespace medial_vk

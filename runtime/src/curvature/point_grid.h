@@ -2,25 +2,35 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "base/point_ops.h"
+#include "medial_vk/ball.h"
 
 namespace medial_vk {
 
 class PointGrid {
  public:
-  /// Fewer than 2^31 points, all finite. The cells are made larger where the box of the points has more than 2^20 of
-  /// them along a side.
+  /// Fewer than 2^31 points, whose differences are finite. The cells are made larger where the box of the points has
+  /// more than 2^20 of them along a side. The points must outlive the grid.
   PointGrid(std::span<const Point> points, double cell);
 
   /// Calls visit(index, squared distance) for all points within `radius` of `p`, in an order that depends on the points
   /// alone.
   template <class Visit>
-  void visit_within(const Point& p, double radius, const Visit& visit) const;
+  void visit_within(const Point& p, double radius, const Visit& visit) const {
+    any_within(p, radius, [&](std::uint32_t index, double squared) {
+      visit(index, squared);
+      return false;
+    });
+  }
+  /// Whether is_one(index, squared distance) holds for one of them; it is called until it does.
+  template <class IsOne>
+  bool any_within(const Point& p, double radius, const IsOne& is_one) const;
 
  private:
   struct Entry {
@@ -42,24 +52,23 @@ class PointGrid {
   std::vector<Entry> entries_;
 };
 
-template <class Visit>
-void PointGrid::visit_within(const Point& p, double radius, const Visit& visit) const {
+template <class IsOne>
+bool PointGrid::any_within(const Point& p, double radius, const IsOne& is_one) const {
   std::array<std::int64_t, 3> first, last;
   double cells = 1;
   for (std::size_t k = 0; k < 3; ++k) {
     first[k] = std::max<std::int64_t>(0, cell_of(p[k] - radius, k));
     last[k] = cell_of(p[k] + radius, k);
-    if (last[k] < first[k]) return;
+    if (last[k] < first[k]) return false;
     if (k > 0) cells *= static_cast<double>(last[k] - first[k] + 1);
   }
-  const auto look_at = [&](const Entry& entry) {
+  const auto is_found = [&](const Entry& entry) {
     const Point offset = points_[entry.index] - p;
     const double squared = dot(offset, offset);
-    if (squared <= radius * radius) visit(entry.index, squared);
+    return squared <= radius * radius && is_one(entry.index, squared);
   };
   if (cells > static_cast<double>(entries_.size())) {
-    std::for_each(entries_.begin(), entries_.end(), look_at);
-    return;
+    return std::any_of(entries_.begin(), entries_.end(), is_found);
   }
   for (std::int64_t z = first[2]; z <= last[2]; ++z) {
     for (std::int64_t y = first[1]; y <= last[1]; ++y) {
@@ -67,18 +76,21 @@ void PointGrid::visit_within(const Point& p, double radius, const Visit& visit) 
       const auto is_before = [](const Entry& entry, std::uint64_t key) { return entry.key < key; };
       for (auto at = std::lower_bound(entries_.begin(), entries_.end(), from, is_before);
            at != entries_.end() && at->key <= to; ++at) {
-        look_at(*at);
+        if (is_found(*at)) return true;
       }
     }
   }
+  return false;
 }
 
 /// Clears marks of points that are closer than `distance` to a marked one of a lower number, in ascending order.
 void thin_out(std::span<const Point> points, const PointGrid& grid, double distance,
               std::vector<std::uint8_t>& is_kept);
 
-/// The distance to which each point has the area of a square of this side: 1 / sqrt(density), by the distance to the
-/// 16th neighbour, in the median over the points. 0 for a single point.
+/// The side of the square that is each point's share of the area: 1 / sqrt(density), by the distance to the 16th
+/// neighbour, in the median over the points. 0 for a single point, and for points all in one place.
 double estimated_spacing(std::span<const Point> points, unsigned threads);
+
+std::vector<Point> centres_of(std::span<const Ball> balls);
 
 }  // namespace medial_vk

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "base/parallel.h"
+#include "curvature/meeting_balls.h"
 
 namespace medial_vk {
 namespace {
@@ -12,6 +13,7 @@ constexpr double kNormalReach = 2.5;  // some 20 balls of a sheet
 constexpr double kShapeReach = 4;     // some 50
 constexpr double kLinkReach = 2.2;
 constexpr double kNestedReach = 20;
+constexpr double kPointShare = 0.25;  // of the radius: centres nearer than this may count as one
 // cos(0.25): along a sheet, the radius grows by at most the cosine of the least object angle on the way, and balls of
 // angles below a quarter carry little of the boundary.
 constexpr double kNestedSlope = 0.9689;
@@ -51,13 +53,6 @@ class Spread {
 
 Point column(const Eigen::Matrix3d& matrix, int i) { return {matrix(0, i), matrix(1, i), matrix(2, i)}; }
 
-std::vector<Point> centres_of(std::span<const Ball> balls) {
-  std::vector<Point> centres;
-  centres.reserve(balls.size());
-  for (const Ball& ball : balls) centres.push_back(ball.centre);
-  return centres;
-}
-
 }  // namespace
 
 SheetLinks::SheetLinks(std::span<const Ball> balls, double spacing, unsigned threads)
@@ -76,7 +71,19 @@ SheetLinks::SheetLinks(std::span<const Ball> balls, double spacing, unsigned thr
   std::vector<LocalShape> shapes(count);
   parallel_for(count, 64, threads, [&](std::size_t i) { shapes[i] = shape_around(static_cast<std::uint32_t>(i)); });
   shapes_ = std::move(shapes);
+  check_points(nested, threads);
   link(threads);
+}
+
+/// What shape_around() takes for points is one only if no other ball overlaps it: balls may be sparse.
+void SheetLinks::check_points(const std::vector<std::uint8_t>& is_nested, unsigned threads) {
+  const auto is_point = [](const LocalShape& shape) { return shape.state == CurvatureState::kPoint; };
+  if (std::ranges::none_of(shapes_, is_point)) return;
+  const MeetingBalls others(balls_, is_nested);
+  parallel_for(balls_.size(), 64, threads, [&](std::size_t i) {
+    const double near = std::min(kShapeReach * spacing_, kPointShare * balls_[i].radius);
+    if (is_point(shapes_[i]) && others.meets_other(balls_[i], near)) shapes_[i] = {};
+  });
 }
 
 bool SheetLinks::is_nested(std::uint32_t ball) const {
@@ -104,19 +111,35 @@ LocalShape SheetLinks::shape_around(std::uint32_t ball) const {
     wide.add(centres_[other] - centre);
     if (distance <= kNormalReach * spacing_) near.add(centres_[other] - centre);
   });
-  const bool is_apart = beyond == 0 && wide.farthest() <= 0.25 * balls_[ball].radius;
+  const bool is_apart = beyond == 0 && wide.farthest() <= kPointShare * balls_[ball].radius;
+  const LocalShape point = {CurvatureState::kPoint, {0, 0, 0}, wide.farthest()};
   if (wide.count() < kFewest || wide.farthest() == 0) {
-    return {is_apart ? CurvatureState::kPoint : CurvatureState::kFew, {0, 0, 0}};
+    return is_apart ? point : LocalShape{};
   }
   const auto axes = wide.axes();
-  const Eigen::Vector3d variances = axes.eigenvalues();
-  if (variances[1] <= kCurveShare * variances[2]) return {CurvatureState::kCurve, column(axes.eigenvectors(), 2)};
-  if (near.count() < kFewest) return {CurvatureState::kFew, {0, 0, 0}};
+  const Eigen::Vector3d& variances = axes.eigenvalues();
+  if (variances[1] <= kCurveShare * variances[2]) {
+    // The width itself, for half of it: that of the centres is less than that of the strip which they are scattered in.
+    const double across = range_across(ball, column(axes.eigenvectors(), 1));
+    return {CurvatureState::kCurve, column(axes.eigenvectors(), 2), std::min(across, spacing_)};
+  }
+  if (near.count() < kFewest) return {};
   const auto sheet = near.axes();
   if (sheet.eigenvalues()[0] > kFlatShare * sheet.eigenvalues()[1]) {
-    return {is_apart ? CurvatureState::kPoint : CurvatureState::kSeam, {0, 0, 0}};
+    return is_apart ? point : LocalShape{CurvatureState::kSeam, {0, 0, 0}, 0};
   }
-  return {CurvatureState::kKnown, column(sheet.eigenvectors(), 0)};
+  return {CurvatureState::kKnown, column(sheet.eigenvectors(), 0), 0};
+}
+
+double SheetLinks::range_across(std::uint32_t ball, const Point& axis) const {
+  double lowest = 0, highest = 0;
+  grid_.visit_within(centres_[ball], kShapeReach * spacing_, [&](std::uint32_t other, double) {
+    if (shapes_[other].state == CurvatureState::kNested) return;
+    const double across = dot(centres_[other] - centres_[ball], axis);
+    lowest = std::min(lowest, across);
+    highest = std::max(highest, across);
+  });
+  return highest - lowest;
 }
 
 bool SheetLinks::are_linked(std::uint32_t a, std::uint32_t b) const {

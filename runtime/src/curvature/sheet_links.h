@@ -16,12 +16,15 @@ struct LocalShape {
   /// kKnown: like a sheet. kCurve, kPoint, kSeam, kFew and kNested as in the result.
   CurvatureState state = CurvatureState::kFew;
   Point direction = {0, 0, 0};  ///< The normal of the sheet, or the tangent of the curve; of unit length.
+  /// kCurve: half the width of the strip of centres that counts as a curve, or more, but at most a spacing. kPoint: how
+  /// far away the centres lie that count as one with that of the ball.
+  double blur = 0;
 };
 
 /// Balls that lie side by side on one sheet are linked.
 class SheetLinks {
  public:
-  /// `spacing` is positive, or 0 for balls all in one place.
+  /// `spacing` is positive.
   SheetLinks(std::span<const Ball> balls, double spacing, unsigned threads);
 
   std::span<const Ball> balls() const { return balls_; }
@@ -35,7 +38,9 @@ class SheetLinks {
 
  private:
   LocalShape shape_around(std::uint32_t ball) const;
+  double range_across(std::uint32_t ball, const Point& axis) const;
   bool is_nested(std::uint32_t ball) const;
+  void check_points(const std::vector<std::uint8_t>& is_nested, unsigned threads);
   bool are_linked(std::uint32_t a, std::uint32_t b) const;
   void link(unsigned threads);
 

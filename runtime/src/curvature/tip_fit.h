@@ -13,7 +13,6 @@ namespace medial_vk {
 /// Points of the boundary with their outward unit normals.
 struct TipCloud {
   std::vector<Point> tips, normals;
-  std::vector<std::uint8_t> is_used;  ///< 0: the point is not known, and stands for none.
 };
 
 /// The second fundamental form at a tip.

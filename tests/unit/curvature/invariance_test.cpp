@@ -98,6 +98,46 @@ TEST(CurvatureInvariance, RigidMotionsChangeRoundingAlone) {
   EXPECT_GT(same, 95 * all / 100);
 }
 
+TEST(CurvatureInvariance, FarFromTheOriginTipsAreTheSame) {
+  // A shift by a power of two, of coordinates that it does not round.
+  BallSheet sheet = test::spheroid(2, 1, 0.08);
+  for (Ball& ball : sheet.balls) {
+    for (double& x : ball.centre) x = std::round(x * 0x1p30) * 0x1p-30;
+  }
+  std::vector<Ball> moved = sheet.balls;
+  for (Ball& ball : moved) ball.centre = ball.centre + Point{0x1p20, 0x1p20, -0x1p20};
+  const BoundaryCurvature before = measure_curvature(sheet.balls).value(), after = measure_curvature(moved).value();
+  std::size_t same = 0, known = 0;
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      const TipCurvature &p = before.balls[i].tips[side], &q = after.balls[i].tips[side];
+      if (!is_known(p.state)) continue;
+      ++known;
+      // Tips are rounded to 2^-32 there, over squares of windows of 5 spacings or more: less than 10^-8.
+      if (std::fabs(p.kappa[0] - q.kappa[0]) < 1e-8 && std::fabs(p.kappa[1] - q.kappa[1]) < 1e-8) ++same;
+    }
+  }
+  EXPECT_GT(known, moved.size());
+  EXPECT_GT(same, 95 * known / 100);
+}
+
+TEST(CurvatureInvariance, SpokesNameTipsOfWhichOneIsUnknown) {
+  // The inner radius is less than the spacing: nothing is known of the inner tip but where windows happen to agree.
+  BallSheet sheet = test::pipe_wall(0.2, 10, 0.25);
+  for (SpokePair& pair : sheet.spokes) std::swap(pair.a, pair.b);
+  const BoundaryCurvature result = measure_curvature(sheet.balls, {}, sheet.spokes).value();
+  std::array<std::size_t, 2> alone = {};
+  for (std::size_t i = 0; i < sheet.balls.size(); ++i) {
+    const auto& tips = result.balls[i].tips;
+    const std::array<bool, 2> is_there = {!std::isnan(tips[0].normal[0]), !std::isnan(tips[1].normal[0])};
+    if (is_there[0] == is_there[1]) continue;
+    const std::size_t side = is_there[0] ? 0 : 1;
+    ++alone[side];
+    EXPECT_GT(dot(tips[side].normal, side == 0 ? sheet.spokes[i].a : sheet.spokes[i].b), 0);
+  }
+  EXPECT_GT(alone[1], 10u);
+}
+
 TEST(CurvatureErrors, NameWhatIsWrong) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<Ball> ball = {{{0, 0, 0}, 1}};
@@ -111,6 +151,12 @@ TEST(CurvatureErrors, NameWhatIsWrong) {
   using testing::HasSubstr;
   EXPECT_THAT(message_of(measure_curvature(std::vector<Ball>{{{0, 0, 0}, 1}, {{nan, 0, 0}, 1}})), HasSubstr("ball 1"));
   EXPECT_THAT(message_of(measure_curvature(std::vector<Ball>{{{0, 0, 0}, 0}})), HasSubstr("positive radius"));
+  // Beyond 1e18, squares and sums of them are no longer certain to be finite.
+  for (const double far : {1.1e18, 1e300, std::numeric_limits<double>::max()}) {
+    EXPECT_THAT(message_of(measure_curvature(std::vector<Ball>{{{0, 0, 0}, 1}, {{0, -far, 0}, 1}})),
+                HasSubstr("ball 1"));
+    EXPECT_THAT(message_of(measure_curvature(std::vector<Ball>{{{0, 0, 0}, far}})), HasSubstr("1e18"));
+  }
   const std::vector<SpokePair> two = {pair[0], pair[0]}, lengths = {{{2, 0, 0}, {0, 1, 0}}};
   EXPECT_THAT(message_of(measure_curvature(ball, {}, two)), HasSubstr("as many"));
   EXPECT_THAT(message_of(measure_curvature(ball, {}, lengths)), HasSubstr("unit vectors"));
@@ -122,6 +168,18 @@ TEST(CurvatureErrors, NameWhatIsWrong) {
   EXPECT_THAT(message_of(measure_curvature(ball, options)), HasSubstr("spokes"));
   options.step = 3;
   EXPECT_THAT(message_of(measure_curvature(ball, options, pair)), HasSubstr("step"));
+}
+
+TEST(CurvatureErrors, ExtremeNumbersEnd) {
+  // Many balls, so that the search for the 16th neighbour is not one for all: two heaps at the greatest distance.
+  std::vector<Ball> balls;
+  for (int i = 0; i < 40; ++i) balls.push_back({{i < 20 ? -1e18 : 1e18, 1e3 * i, 0}, i < 20 ? 1e18 : 1});
+  const BoundaryCurvature far = measure_curvature(balls).value();
+  EXPECT_GT(far.spacing, 0);
+  EXPECT_EQ(far.balls.size(), balls.size());
+  // As near as numbers are.
+  for (std::size_t i = 0; i < balls.size(); ++i) balls[i] = {{5e-324 * static_cast<double>(i), 0, 0}, 5e-324};
+  EXPECT_EQ(measure_curvature(balls).value().balls.size(), balls.size());
 }
 
 TEST(CurvatureErrors, AStopEndsTheCall) {
