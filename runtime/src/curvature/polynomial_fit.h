@@ -14,8 +14,8 @@ constexpr int terms_of(int degree) { return (degree + 1) * (degree + 2) / 2; }
 
 /// The monomials by degree, then by the power of y: 1, x, y, x^2, xy, y^2, ...
 constexpr std::size_t term_of(int power_x, int power_y) {
-  const int degree = power_x + power_y;
-  return static_cast<std::size_t>(degree * (degree + 1) / 2 + power_y);
+  const auto x = static_cast<std::size_t>(power_x), y = static_cast<std::size_t>(power_y);
+  return (x + y) * (x + y + 1) / 2 + y;
 }
 
 /// All monomials up to a degree at a place.
