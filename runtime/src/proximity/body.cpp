@@ -108,7 +108,7 @@ std::shared_ptr<Impl> impl_of(const IndexedMesh* mesh, std::span<const Ball> ins
 
 }  // namespace
 
-BodySurface::BodySurface(Solid of_mesh, const Point& centre, unsigned threads, BuildWatch& watch)
+BodySurface::BodySurface(Solid of_mesh, const Point& centre, unsigned threads, LoopWatch& watch)
     : solid(std::move(of_mesh)),
       tree(SurfaceTree::build(solid, centre, threads, watch)),
       extremes(extremes_of(solid.mesh().mesh)) {}
@@ -128,7 +128,7 @@ Result<Body> Body::create(const IndexedMesh& mesh, std::span<const Ball> inside,
     return Error{ErrorCode::kUsage, "balls `inside` a mesh that is not closed: it encloses nothing"};
   }
   return catch_out_of_memory("indexing the triangles of a body", [&]() -> Result<Body> {
-    BuildWatch watch(progress, stop);
+    LoopWatch watch(progress, stop);
     try {
       Result<Solid> solid = Solid::build(mesh);
       if (!solid) return solid.error();
@@ -139,7 +139,7 @@ Result<Body> Body::create(const IndexedMesh& mesh, std::span<const Ball> inside,
                                    options.threads, watch);
       }
       return Body(impl);
-    } catch (const BuildStopped&) {
+    } catch (const LoopStopped&) {
       return Error{ErrorCode::kInterrupted, "interrupted"};
     }
   });

@@ -21,7 +21,7 @@ struct BodySurface {
   /// Of each component of the mesh, the corners that are farthest along and against each axis.
   std::vector<std::array<Point, 6>> extremes;
 
-  BodySurface(Solid of_mesh, const Point& centre, unsigned threads, BuildWatch& watch);
+  BodySurface(Solid of_mesh, const Point& centre, unsigned threads, LoopWatch& watch);
 };
 
 struct Body::Impl {

@@ -39,7 +39,7 @@ std::vector<float> means(std::span<const Sample> samples, std::size_t balls) {
 }  // namespace
 
 MeanErrors mean_errors(const Solid& solid, const BodyTree& inside, const BodyTree& cover, const Point& centre,
-                       unsigned threads, BuildWatch& watch) {
+                       unsigned threads, LoopWatch& watch) {
   constexpr std::size_t kMost = 4096, kOfBall = 8, kTogether = 64;
   const std::size_t count = std::min(kMost, kOfBall * (inside.size() + cover.size()));
   const std::vector<Probe> probes = probes_around(solid, count, threads, [&watch] { watch.check(); });

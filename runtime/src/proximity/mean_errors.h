@@ -16,6 +16,6 @@ struct MeanErrors {
 
 /// Precondition: both trees hold balls. They are relative to `centre`.
 MeanErrors mean_errors(const Solid& solid, const BodyTree& inside, const BodyTree& cover, const Point& centre,
-                       unsigned threads, BuildWatch& watch);
+                       unsigned threads, LoopWatch& watch);
 
 }  // namespace medial_vk

@@ -89,7 +89,7 @@ struct NodeTree::Builder {
 };
 
 NodeTree NodeTree::build(std::span<const Point> positions, const BallAround& ball_around, unsigned threads,
-                         std::span<const double> radii, BuildWatch* watch) {
+                         std::span<const double> radii, LoopWatch* watch) {
   NodeTree tree;
   if (positions.empty()) return tree;
   std::vector<std::uint32_t> all(positions.size());

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "base/loop_watch.h"
 #include "base/point_ops.h"
-#include "proximity/build_watch.h"
 
 namespace medial_vk {
 
@@ -60,9 +60,9 @@ class NodeTree {
 
   /// Items are grouped by their positions; with radii, as balls, into tighter groups, which takes a tenth of a
   /// millisecond for each. No item, no node. The tree does not depend on the number of threads (0: one per core).
-  /// Throws BuildStopped if `watch` is stopped; null: it runs to its end.
+  /// Throws LoopStopped if `watch` is stopped; null: it runs to its end.
   static NodeTree build(std::span<const Point> positions, const BallAround& ball_around, unsigned threads,
-                        std::span<const double> radii = {}, BuildWatch* watch = nullptr);
+                        std::span<const double> radii = {}, LoopWatch* watch = nullptr);
 
   bool is_empty() const { return nodes_.empty(); }
   std::size_t size() const { return nodes_.size(); }

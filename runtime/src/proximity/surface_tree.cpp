@@ -147,7 +147,7 @@ class BallsOfTriangles {
 
 }  // namespace
 
-SurfaceTree SurfaceTree::build(const Solid& solid, const Point& centre, unsigned threads, BuildWatch& watch) {
+SurfaceTree SurfaceTree::build(const Solid& solid, const Point& centre, unsigned threads, LoopWatch& watch) {
   SurfaceTree tree(solid.mesh().mesh);
   std::vector<Point> middles;
   middles.reserve(tree.size());
@@ -187,7 +187,7 @@ void SurfaceTree::collect_triangles(const Point& centre) {
   }
 }
 
-void SurfaceTree::collect_boxes(const Point& centre, unsigned threads, BuildWatch& watch) {
+void SurfaceTree::collect_boxes(const Point& centre, unsigned threads, LoopWatch& watch) {
   constexpr std::size_t kNodesOfBlock = 8;
   parallel_for(nodes_.size(), kNodesOfBlock, threads, [&](std::size_t i) {
     const BodyNode& node = nodes_.node(static_cast<std::uint32_t>(i));

@@ -25,8 +25,8 @@ class SurfaceTree {
   /// Corner c of eight triangles, relative to the centre: [c][axis].
   using EightTriangles = std::array<std::array<std::array<float, BodyNode::kWidth>, 3>, 3>;
 
-  /// Keeps a reference to the solid. Balls are relative to `centre`. Throws std::bad_alloc, BuildStopped.
-  static SurfaceTree build(const Solid& solid, const Point& centre, unsigned threads, BuildWatch& watch);
+  /// Keeps a reference to the solid. Balls are relative to `centre`. Throws std::bad_alloc, LoopStopped.
+  static SurfaceTree build(const Solid& solid, const Point& centre, unsigned threads, LoopWatch& watch);
 
   const NodeTree& nodes() const { return nodes_; }
   std::size_t size() const { return mesh_->triangles.size(); }
@@ -43,7 +43,7 @@ class SurfaceTree {
   explicit SurfaceTree(const Mesh& mesh) : mesh_(&mesh) {}
   void find_places();
   void collect_triangles(const Point& centre);
-  void collect_boxes(const Point& centre, unsigned threads, BuildWatch& watch);
+  void collect_boxes(const Point& centre, unsigned threads, LoopWatch& watch);
   void add_triangles_below(const BodyNode& node, std::uint32_t slot, std::vector<std::uint32_t>& triangles) const;
   FloatBox box_of(std::span<const std::uint32_t> triangles, const Point& centre) const;
 

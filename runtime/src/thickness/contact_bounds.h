@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/eight_floats.h"
 #include "base/point_ops.h"
 #include "medial_vk/sphere_measures.h"
 
@@ -49,11 +50,14 @@ struct Slack {
 
 /// The greatest distance s from p, in a direction u with u.q = `along` for the contact q, of a centre m = s u with
 /// |m - p| <= |m - q| + slack: squared, this is s (2 u.q - 2 slack) <= |q|^2 - slack^2. Infinite if u.q <= slack.
-inline double reach_by(const Contact& contact, double along, const Slack& slack) {
+MEDIAL_VK_INLINE double reach_by(double squared_length, double along, const Slack& slack) {
   const double beyond = along - slack.product;
-  if (!(beyond > 0)) return std::numeric_limits<double>::infinity();
-  const double squared = contact.squared * (1 + kSquareRounding) - slack.distance * slack.distance;
-  return std::max(0.0, squared) / (2 * beyond) * kBoundRounding;
+  const double squared = squared_length * (1 + kSquareRounding) - slack.distance * slack.distance;
+  const double reach = (squared > 0 ? squared : 0) / (2 * beyond) * kBoundRounding;
+  return beyond > 0 ? reach : std::numeric_limits<double>::infinity();
+}
+inline double reach_by(const Contact& contact, double along, const Slack& slack) {
+  return reach_by(contact.squared, along, slack);
 }
 
 /// Distances from p at which the points in all four directions are within `radius` of the contact; empty if the lower

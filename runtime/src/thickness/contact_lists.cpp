@@ -41,12 +41,9 @@ struct MeasureContacts {
         low = lesser_of(low, product);
         high = greater_of(high, product);
       }
-      const double beyond = low - slack.product;
-      const double squared = from.squared[j] * (1 + kSquareRounding) - slack.distance * slack.distance;
-      const double by = greater_of(0, squared) / (2 * beyond) * kBoundRounding;
       least[j] = low;
       most[j] = high;
-      reach[j] = beyond > 0 ? by : kInfinite;
+      reach[j] = reach_by(from.squared[j], low, slack);
     }
   }
 };

@@ -1,22 +1,19 @@
 #include "medial_vk/thickness.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <mutex>
 
 #include "base/host_memory.h"
+#include "base/loop_watch.h"
 #include "base/parallel.h"
 #include "base/point_order.h"
-#include "thickness/inward_direction.h"
+#include "thickness/ball_direction.h"
 #include "thickness/largest_ball_near.h"
 
 namespace medial_vk {
 namespace {
 
 constexpr std::size_t kPointsAtATime = 32;  // that one thread takes, neighbours in space
-
-struct Interrupted {};
 
 Error usage(const char* message) { return {ErrorCode::kUsage, message}; }
 
@@ -27,7 +24,7 @@ Status check(std::span<const Point> points, const ThicknessOptions& options) {
   if (!(options.width >= 1e-6 && options.width <= 1)) return usage("`width` must be from 1e-6 to 1");
   if (options.queries == 0) return usage("`queries` must be positive");
   constexpr std::size_t kMostPoints = std::size_t{1} << 31;
-  if (points.size() > kMostPoints) return usage("`points` must be at most 2^31");
+  if (points.size() > kMostPoints) return usage("`points` must be at most 2^31 points");
   constexpr double kMost = 1e18;  // squares of distances, and their products, are finite
   const auto is_point = [](const Point& p) {
     return std::ranges::all_of(p, [](double x) { return std::fabs(x) <= kMost; });
@@ -36,39 +33,21 @@ Status check(std::span<const Point> points, const ThicknessOptions& options) {
   return {};
 }
 
-/// Reports the finished share, for one thread at a time.
-class Reporter {
- public:
-  Reporter(const ProgressCallback& progress, std::size_t count) : progress_(progress), count_(count) {}
-
-  void add(std::size_t finished) {
-    if (!progress_) return;
-    const std::lock_guard lock(mutex_);
-    finished_ += finished;
-    progress_(static_cast<double>(finished_) / static_cast<double>(count_));
-  }
-
- private:
-  const ProgressCallback& progress_;
-  std::size_t count_, finished_ = 0;
-  std::mutex mutex_;
-};
-
 std::vector<Thickness> measure(const ThicknessField& field, std::span<const Point> points,
                                const ProgressCallback& progress, const std::stop_token& stop) {
   const ThicknessOptions& options = field.options;
   std::vector<Thickness> found(points.size());
   const std::vector<std::uint32_t> order = order_along_curve(points);
-  Reporter reporter(progress, points.size());
+  LoopWatch watch(progress, stop);
   parallel_blocks(points.size(), kPointsAtATime, options.threads, [&](std::size_t begin, std::size_t end) {
     LargestBallNear search(field);
     std::vector<std::uint32_t> nearby;
     for (std::size_t i = begin; i < end; ++i) {
-      if (stop.stop_requested()) throw Interrupted();
+      watch.check();
       const Point& p = points[order[i]];
       found[order[i]] = search.find(p, direction_of_balls(field.solid, p, options.delta, options.side, nearby));
     }
-    reporter.add(end - begin);
+    watch.finish(end - begin, points.size());
   });
   return found;
 }
@@ -88,7 +67,7 @@ Result<std::vector<Thickness>> measure_thickness(const IndexedMesh& mesh, std::s
     if (options.limit == 0) field.options.limit = mesh.longest_side();
     try {
       return measure(field, points, progress, stop);
-    } catch (const Interrupted&) {
+    } catch (const LoopStopped&) {
       return Error{ErrorCode::kInterrupted, "interrupted"};
     }
   });

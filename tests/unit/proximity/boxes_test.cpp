@@ -134,7 +134,7 @@ TEST(Boxes, OfATreeHoldTheirTriangles) {
     const Point centre = {far + 0.1, -far / 3, far / 7};
     const ProgressCallback progress;
     const std::stop_token stop;
-    BuildWatch watch(progress, stop);
+    LoopWatch watch(progress, stop);
     const SurfaceTree tree = SurfaceTree::build(solid.value(), centre, 1, watch);
     std::vector<std::uint32_t> triangles;
     EXPECT_GT(check_boxes(tree, 0, centre, triangles), tree.size() / 8);

@@ -1,4 +1,4 @@
-// The progress of the build of a tree, and its early end.
+// The progress of loops on several threads, and their early end.
 #pragma once
 
 #include <mutex>
@@ -8,17 +8,17 @@
 
 namespace medial_vk {
 
-/// Thrown by a build that is stopped.
-struct BuildStopped {};
+/// Thrown by a loop that is stopped.
+struct LoopStopped {};
 
-/// For loops on several threads: every call may come from any of them. Keeps references to both arguments.
-class BuildWatch {
+/// Every call may come from any thread. Keeps references to both arguments.
+class LoopWatch {
  public:
-  BuildWatch(const ProgressCallback& progress, const std::stop_token& stop) : progress_(progress), stop_(stop) {}
+  LoopWatch(const ProgressCallback& progress, const std::stop_token& stop) : progress_(progress), stop_(stop) {}
 
-  /// Throws BuildStopped if a stop was requested.
+  /// Throws LoopStopped if a stop was requested.
   void check() const {
-    if (stop_.stop_requested()) throw BuildStopped();
+    if (stop_.stop_requested()) throw LoopStopped();
   }
 
   /// So many of `all` steps more are finished.

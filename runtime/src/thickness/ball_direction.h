@@ -1,4 +1,4 @@
-// A direction from a point of the boundary into the solid, or out of it.
+// A direction from a point of the boundary into the solid, or out of it, in which large balls are likely.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "thickness/inward_direction.h"
+#include "thickness/ball_direction.h"
 
 #include <algorithm>
 
