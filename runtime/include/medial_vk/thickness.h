@@ -46,7 +46,8 @@ struct Thickness {
 /// At each of `points`, usually on the boundary. The radius of a ball is at most the exact distance of its centre from
 /// the boundary, in double precision rounded down, and an upper bound is proved for all centres. On an open mesh a ball
 /// is inside if its centre is (winding number of at least 1/2), and intervals are wide where that may differ between
-/// neighbouring centres. A delta that is no more than the rounding of coordinates leaves intervals wide, too. Time: 20
+/// neighbouring centres. They are wide, too, where a wall is thinner than some two deltas, as balls beyond it
+/// come within delta of the point, and for a delta that is no more than the rounding of coordinates. Time: 20
 /// to 100 distances a point, fewer where points are dense. `progress` may be called on any thread, on one at a time.
 /// Errors: kUsage (a coordinate that is not finite or beyond 1e18, 2^31 points or more, an option out of range),
 /// kOutOfMemory, kInterrupted.
