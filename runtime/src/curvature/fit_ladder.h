@@ -13,7 +13,7 @@
 namespace medial_vk {
 
 /// The radii of the windows on the boundary, in spacings, each about sqrt(2) of the one before.
-inline constexpr std::array kWindows = {5.0, 7.0, 10.0, 14.0, 20.0, 28.0};
+inline constexpr std::array<double, 6> kWindows = {5.0, 7.0, 10.0, 14.0, 20.0, 28.0};
 /// The radius of the window on the sheet that gives the spokes, as a share of the one on the boundary.
 inline constexpr double kSheetShare = 0.65;
 
