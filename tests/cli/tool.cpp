@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -95,12 +96,25 @@ Tool::~Tool() {
 void Tool::send(int signal) const { ::kill(process_, signal); }
 
 bool Tool::running() {
-  if (!ended_) ended_ = ::waitpid(process_, &status_, WNOHANG) == process_;
+  if (!ended_) ended_ = ::wait4(process_, &status_, WNOHANG, &usage_) == process_;
   return !ended_;
 }
 
+double Tool::seconds_of_processor() {
+  if (running()) {
+    clockid_t clock{};
+    timespec time{};
+    if (::clock_getcpuclockid(process_, &clock) != 0 || ::clock_gettime(clock, &time) != 0) std::abort();
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  }
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return seconds(usage_.ru_utime) + seconds(usage_.ru_stime);
+}
+
 ToolResult Tool::wait() {
-  if (!ended_) ended_ = ::waitpid(process_, &status_, 0) == process_;
+  if (!ended_) ended_ = ::wait4(process_, &status_, 0, &usage_) == process_;
   ToolResult result;
   result.exit_code = WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
   result.out = read_file(streams_.path("out"));

@@ -1,6 +1,7 @@
 // Runs the command line under test as its users do: a process with arguments, streams and an exit code.
 #pragma once
 
+#include <sys/resource.h>
 #include <sys/types.h>
 
 #include <filesystem>
@@ -55,12 +56,15 @@ class Tool {
 
   void send(int signal) const;
   bool running();
+  /// Of the processor, in all threads so far.
+  double seconds_of_processor();
   ToolResult wait();
 
  private:
   pid_t process_ = -1;
   int input_ = -1;  // the end of a pipe that keeps it open
   int status_ = 0;
+  rusage usage_ = {};  // once it has ended
   bool ended_ = false;
   ScratchFolder streams_;
 };

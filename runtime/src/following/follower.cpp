@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -12,8 +12,10 @@
 #include "base/parallel.h"
 #include "following/ascent.h"
 #include "following/ball_sides.h"
+#include "following/given_balls.h"
 #include "following/moving_surface.h"
 #include "following/published_rule.h"
+#include "following/regional_growth.h"
 #include "following/renewal.h"
 #include "following/rest_contacts.h"
 #include "following/tangent_rule.h"
@@ -28,50 +30,9 @@ constexpr double kAnyVolume = std::numeric_limits<double>::infinity();
 
 constexpr std::size_t kBlock = 16;  // balls that one thread takes at a time
 
-/// By which a given ball may reach out of the mesh, as a share of the longest side: that of coordinates in float.
-constexpr double kGivenError = 1e-6;
-
 /// A ball that has been drawn to rest differs from that at rest by 1e-10 of the longest side, and so does the volume
 /// by some 1e-9 of itself: less than this share of the part that is uncovered, if that is a thousandth or more.
 constexpr double kDrawn = 1 + 1e-6;
-
-Status check_options(std::span<const Ball> balls, const FollowerOptions& options, bool is_closed) {
-  const auto usage = [](const char* message) { return Error{ErrorCode::kUsage, message}; };
-  if (balls.empty()) return usage("there is no ball to follow the mesh");
-  if (!(options.protrusion > 0 && options.protrusion < 1)) return usage("`protrusion` must be positive and below 1");
-  if (!(options.shrunk >= 0 && options.shrunk <= 1)) return usage("`shrunk` must be from 0 to 1");
-  if (!(options.object_angle >= 0 && std::isfinite(options.object_angle))) {
-    return usage("`object_angle` must be finite and not negative");
-  }
-  if (!(options.renewal_factor >= 1 && std::isfinite(options.renewal_factor))) {
-    return usage("`renewal_factor` must be finite and at least 1");
-  }
-  if (options.renewed == 0) return {};
-  if (options.rule == FollowRule::kPublished) return usage("`renewed` must be 0 where balls follow as published");
-  if (!is_closed) return usage("`renewed` must be 0 for a mesh that is not closed: its volume is not known");
-  return {};
-}
-
-/// The ball in the rest pose with its first contact, or an error that names it.
-Result<TrackedBall> track(const MovingSurface& surface, const Ball& ball, std::size_t index, double error) {
-  const auto refuse = [&](const std::string& why) {
-    return Error{ErrorCode::kUsage, "ball " + std::to_string(index) + " " + why};
-  };
-  constexpr double kMost = MovingSurface::kGreatestCoordinate;
-  const bool is_in_range = std::ranges::all_of(ball.centre, [](double x) { return std::fabs(x) <= 2 * kMost; });
-  if (!is_in_range || !(ball.radius > 0 && ball.radius <= kMost)) {
-    return refuse("has a number that is out of range, or no positive radius");
-  }
-  const BvhHit nearest = surface.closest(ball.centre, std::numeric_limits<double>::infinity());
-  const double distance = std::sqrt(nearest.squared_distance);
-  if (ball.radius > distance + error || !(distance > 2 * surface.rounding()) || !surface.contains(ball.centre)) {
-    return refuse("is not inside the mesh");
-  }
-  TrackedBall tracked;
-  tracked.ball = ball;
-  tracked.a = {surface.surface_point(nearest), (1 / distance) * (ball.centre - nearest.point)};
-  return tracked;
-}
 
 }  // namespace
 
@@ -104,6 +65,7 @@ class Follower::Impl {
     std::ranges::fill(is_renewed_, std::uint8_t{0});
     std::ranges::fill(came_, FollowOrigin::kFollowed);
     sides_.return_to_rest();
+    if (growth_) growth_->return_to_rest();
     report();
     return {};
   }
@@ -166,7 +128,9 @@ class Follower::Impl {
     rest_ = tracked_;
     if (options_.renewed > 0) {
       if (Status status = measure_present(false); !status) return status;
+      const double volume = solid_volume(measurer_.result());
       rest_share_ = uncovered_share(measurer_.result());
+      if (rest_share_ > 0) growth_.emplace(surface_, present_, volume, options_.renewal_factor);
     }
     report();
     return {};
@@ -192,7 +156,9 @@ class Follower::Impl {
     }
     draw_to_rest();
     if (options_.renewed == 0) return {};
-    if (Status status = return_renewed(); !status) return status;
+    if (growth_) {
+      if (Status status = return_renewed(); !status) return status;
+    }
     return renew();
   }
 
@@ -202,36 +168,49 @@ class Follower::Impl {
     return measurer_.measure(present_, complex, pool_);
   }
 
-  /// Not a number where the volume of the solid is not known.
-  double uncovered_share(const BallUnion& balls) const {
-    return 1 - balls.volume / surface_.solid_volume(balls.volume, kAnyVolume);
-  }
+  /// Not a number where it is not known.
+  double solid_volume(const BallUnion& inside) const { return surface_.solid_volume(inside.volume, kAnyVolume); }
+  double uncovered_share(const BallUnion& balls) const { return 1 - balls.volume / solid_volume(balls); }
 
-  /// Where the uncovered share has grown, balls leave for gaps. The share before the last step, which measured it,
-  /// decides whether a further union is worth its time.
+  /// Where the uncovered volume has grown, balls come from elsewhere. The share before the last step, which measured
+  /// it, decides whether a further union is worth its time.
   Status renew() {
-    if (!(rest_share_ > 0)) return {};
-    const double most = options_.renewal_factor * rest_share_;
+    if (!growth_) return {};
     if (options_.steps == 0) {
       if (Status status = measure_present(false); !status) return status;
-      measured_share_ = uncovered_share(measurer_.result());
+      note_uncovered();
     }
-    if (!(measured_share_ > most)) return {};
+    const double most = options_.renewal_factor * rest_share_;
+    copy_balls(present_);
+    const bool has_region = growth_->choose(surface_, present_, solid_volume_, pool_);
+    if (!has_region && !(measured_share_ > most)) return {};
     if (Status status = measure_present(true); !status) return status;
     const BallUnion& measured = measurer_.result();
-    if (!(uncovered_share(measured) > most)) return {};
-    const Result<std::vector<BallExchange>> exchanges =
-        find_exchanges(surface_, present_, measured, options_.renewed, options_.threads);
+    const bool is_everywhere = uncovered_share(measured) > most;
+    if (is_everywhere) growth_->choose_all();
+    if (!has_region && !is_everywhere) return {};
+    const Result<std::vector<BallExchange>> exchanges = find_exchanges(
+        surface_, present_, measured, {growth_->samples(), growth_->chosen()}, options_.renewed, options_.threads);
     if (!exchanges) return exchanges.error();
-    for (const BallExchange& exchange : exchanges.value()) {
-      TrackedBall& tracked = tracked_[exchange.ball];
-      tracked = exchange.by;
-      tracked.rest_radius = tracked.ball.radius;
-      is_renewed_[exchange.ball] = 1;
-      came_[exchange.ball] = FollowOrigin::kRenewed;
-      sides_.renew(exchange.ball, exchange.others);  // only a hint: memory may run out in it
-    }
+    for (const BallExchange& exchange : exchanges.value()) take_exchange(exchange);
+    if (exchanges.value().size() == options_.renewed) return {};
+    copy_balls(present_);
+    growth_->tried(surface_, present_, solid_volume_);
     return {};
+  }
+
+  void note_uncovered() {
+    solid_volume_ = solid_volume(measurer_.result());
+    measured_share_ = 1 - measurer_.result().volume / solid_volume_;
+  }
+
+  void take_exchange(const BallExchange& exchange) {
+    TrackedBall& tracked = tracked_[exchange.ball];
+    tracked = exchange.by;
+    tracked.rest_radius = tracked.ball.radius;
+    is_renewed_[exchange.ball] = 1;
+    came_[exchange.ball] = FollowOrigin::kRenewed;
+    sides_.renew(exchange.ball, exchange.others);  // only a hint: memory may run out in it
   }
 
   /// Where the surface is as in the rest pose at the places that balls have left, all of them return, unless they would
@@ -253,6 +232,7 @@ class Follower::Impl {
     for (const auto& [i, now] : returned) present_[i] = now.ball;
     if (Status status = measurer_.measure(present_, false, pool_); !status) return status;
     if (uncovered_share(measurer_.result()) > kDrawn * options_.renewal_factor * rest_share_) return {};
+    if (growth_->has_grown(surface_, present_, solid_volume(measurer_.result()), pool_)) return {};
     sides_.return_to_rest();
     for (const auto& [i, now] : returned) {
       tracked_[i] = now;
@@ -314,7 +294,7 @@ class Follower::Impl {
   Status ascend_all() {
     if (Status status = measure_present(false); !status) return status;
     const BallUnion& exposed = measurer_.result();
-    if (options_.renewed > 0) measured_share_ = uncovered_share(exposed);
+    if (options_.renewed > 0) note_uncovered();
     std::ranges::copy(tracked_, before_.begin());
     for_each_ball([&](std::size_t i) { ascend(surface_, {exposed.areas[i], exposed.vectors[i]}, tracked_[i]); });
     take_back_outside();
@@ -355,6 +335,8 @@ class Follower::Impl {
   std::vector<std::uint8_t> is_renewed_;  // 1: away from its place of the rest pose
   double rest_share_ = 0;                 // of the volume, uncovered in the rest pose
   double measured_share_ = 0;             // of the present frame, before the last step
+  double solid_volume_ = 0;               // likewise
+  std::optional<RegionalGrowth> growth_;  // if something is uncovered in the rest pose
 };
 
 Follower::Follower(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

@@ -14,8 +14,8 @@
 #include "following/ascent.h"
 #include "following/greatest_ball.h"
 #include "following/tangent_rule.h"
+#include "following/watched_points.h"
 #include "medial_vk/dynamic_union.h"
-#include "sphere_fits/quality/nearest_ball_tree.h"
 
 namespace medial_vk {
 namespace {
@@ -23,9 +23,6 @@ namespace {
 // Balls whose exact gain or loss is computed, for each that may be chosen: at vertices of the envelope, at points of
 // the surface, and of those that may leave.
 constexpr std::size_t kAtVertices = 4, kAtSurface = 4, kLeaving = 2;
-
-/// Of very fine meshes a part of the triangles suffices.
-constexpr std::size_t kMostTriangles = 20000;
 
 /// A gap is passed over where a chosen ball is nearer than this share of its width.
 constexpr double kSameGap = 0.5;
@@ -48,16 +45,28 @@ struct GapPlace {
   std::uint32_t triangle = kNowhere;  // of a point of the surface
 };
 
-void sort_by_width(std::vector<GapPlace>& places) {
+/// The width of a place where no ball may come.
+constexpr double kNotHere = -1;
+
+std::vector<GapPlace> widest_first(std::vector<GapPlace> places) {
+  std::erase_if(places, [](const GapPlace& place) { return place.width == kNotHere; });
   std::ranges::stable_sort(places, std::greater<>(), &GapPlace::width);
+  return places;
 }
 
 /// The exchanges of one frame.
 class Renewal {
  public:
-  Renewal(const MovingSurface& surface, std::span<const Ball> balls, const BallUnion& measured, std::uint32_t most,
-          unsigned threads, DynamicUnion all)
-      : surface_(surface), balls_(balls), measured_(measured), most_(most), threads_(threads), union_(std::move(all)) {}
+  Renewal(const MovingSurface& surface, std::span<const Ball> balls, const BallUnion& measured,
+          const ExchangeRegions& regions, std::uint32_t most, unsigned threads, DynamicUnion all)
+      : surface_(surface),
+        balls_(balls),
+        measured_(measured),
+        regions_(regions),
+        most_(most),
+        threads_(threads),
+        union_(std::move(all)),
+        watched_(surface, balls, regions.samples, threads) {}
 
   Result<std::vector<BallExchange>> run() {
     if (Status status = add_balls(); !status) return status.error();
@@ -98,36 +107,29 @@ class Renewal {
     return {};
   }
 
+  bool is_chosen(std::uint32_t triangle) const { return regions_.chosen[regions_.samples.region_of(triangle)] != 0; }
+
   /// Vertices of the envelope, by their distance from the surface: pockets between balls.
   std::vector<GapPlace> pockets() const {
     std::vector<GapPlace> places(measured_.vertices.size());
     parallel_for(places.size(), 16, threads_, [&](std::size_t i) {
       const Point& at = measured_.vertices[i].at;
       const BvhHit nearest = surface_.closest(at, std::numeric_limits<double>::infinity());
-      places[i] = {at, std::sqrt(nearest.squared_distance), kNowhere};
+      const double width = is_chosen(nearest.triangle) ? std::sqrt(nearest.squared_distance) : kNotHere;
+      places[i] = {at, width, kNowhere};
     });
-    sort_by_width(places);
-    return places;
+    return widest_first(std::move(places));
   }
 
-  /// Points of the surface, by their distance from the balls; without any ball all are as far.
+  /// Middles of triangles, by their distance from the balls.
   std::vector<GapPlace> uncovered_points() const {
-    std::vector<Ball> present;
-    std::ranges::copy_if(balls_, std::back_inserter(present), [](const Ball& ball) { return ball.radius > 0; });
-    std::optional<NearestBallTree> tree;
-    if (!present.empty()) tree.emplace(present);
-    const std::size_t triangles = surface_.triangles().size(), stride = triangles / kMostTriangles + 1;
-    std::vector<GapPlace> places((triangles + stride - 1) / stride);
-    parallel_for(places.size(), 64, threads_, [&](std::size_t i) {
-      const auto triangle = static_cast<std::uint32_t>(i * stride);
-      const Point at = surface_.at(middle_of(triangle));
-      places[i] = {at, tree ? tree->nearest(at).distance : surface_.longest_side(), triangle};
-    });
-    sort_by_width(places);
-    return places;
+    std::vector<GapPlace> places;
+    places.reserve(watched_.points().size());
+    for (const WatchedPoint& point : watched_.points()) {
+      if (point.is_middle && is_chosen(point.triangle)) places.push_back({point.at, point.distance, point.triangle});
+    }
+    return widest_first(std::move(places));
   }
-
-  static SurfacePoint middle_of(std::uint32_t triangle) { return {triangle, 1.0 / 3, 1.0 / 3}; }
 
   void find_candidates() {
     grow(pockets(), kAtVertices * most_);
@@ -214,15 +216,17 @@ class Renewal {
 
   /// The next exchange, or none if no further one is worth it.
   Result<std::optional<BallExchange>> next_exchange() {
-    while (!gains_.empty() && !losses_.empty()) {
+    while (!gains_.empty()) {
       const Result<Valued> best = pop_best();
       if (!best) return best.error();
       const TrackedBall& by = candidates_[best.value().second];
       if (!surface_.holds(by.ball)) continue;  // on the other side, where faces cross
-      const Result<Valued> weakest = pop_weakest();
-      if (!weakest) return weakest.error();
-      if (!(best.value().first > kWorth * weakest.value().first)) break;
-      return make_exchange(weakest.value().second, by);
+      while (!losses_.empty()) {
+        const Result<Valued> weakest = pop_weakest();
+        if (!weakest) return weakest.error();
+        if (!(best.value().first > kWorth * weakest.value().first)) return std::optional<BallExchange>();
+        if (watched_.can_leave(weakest.value().second)) return make_exchange(weakest.value().second, by);
+      }
     }
     return std::optional<BallExchange>();
   }
@@ -236,6 +240,7 @@ class Renewal {
     BallExchange exchange = {ball, by, {}};
     note_others(exchange);
     if (Status moved = slide(exchange); !moved) return moved.error();
+    watched_.exchange(ball, exchange.by.ball);
     return std::optional<BallExchange>(std::move(exchange));
   }
 
@@ -269,9 +274,11 @@ class Renewal {
   const MovingSurface& surface_;
   const std::span<const Ball> balls_;
   const BallUnion& measured_;
+  const ExchangeRegions regions_;
   const std::size_t most_;
   const unsigned threads_;
   DynamicUnion union_;
+  WatchedPoints watched_;
   std::vector<std::uint32_t> slot_of_, ball_at_;  // by ball, by slot
   std::vector<TrackedBall> candidates_;
   std::priority_queue<Valued> gains_;
@@ -290,11 +297,12 @@ double largest_coordinate(const MovingSurface& surface, std::span<const Ball> ba
 }  // namespace
 
 Result<std::vector<BallExchange>> find_exchanges(const MovingSurface& surface, std::span<const Ball> balls,
-                                                 const BallUnion& measured, std::uint32_t most, unsigned threads) {
+                                                 const BallUnion& measured, const ExchangeRegions& regions,
+                                                 std::uint32_t most, unsigned threads) {
   Result<DynamicUnion> all =
       DynamicUnion::build(static_cast<std::uint32_t>(balls.size()), largest_coordinate(surface, balls));
   if (!all) return all.error();
-  return Renewal(surface, balls, measured, most, threads, std::move(all).value()).run();
+  return Renewal(surface, balls, measured, regions, most, threads, std::move(all).value()).run();
 }
 
 }  // namespace medial_vk

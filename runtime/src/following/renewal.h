@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "following/gap_samples.h"
 #include "following/moving_surface.h"
 #include "following/tracked_ball.h"
 #include "medial_vk/ball_union.h"
@@ -20,10 +21,18 @@ struct BallExchange {
   std::vector<std::uint32_t> others;  ///< Balls next to which it was or is.
 };
 
-/// Up to `most` exchanges, in their order: each of them enlarges the union of all balls. `measured` is the union of
-/// `balls`, with its vertices; balls of radius 0 are lost. The result does not depend on `threads`. Errors:
-/// kOutOfMemory, kUsage (as DynamicUnion::add()).
+/// Where balls may come to.
+struct ExchangeRegions {
+  const GapSamples& samples;
+  std::span<const std::uint8_t> chosen;  ///< By region: 1 if they may.
+};
+
+/// Up to `most` exchanges, in their order: each of them enlarges the union of all balls, and none makes the greatest
+/// distance to them larger, of the samples and of the middles of triangles (of very fine meshes, of a part of these).
+/// `measured` is the union of `balls`, with its vertices; balls of radius 0 are lost. The result does not depend on
+/// `threads`. Errors: kOutOfMemory, kUsage (as DynamicUnion::add()).
 Result<std::vector<BallExchange>> find_exchanges(const MovingSurface& surface, std::span<const Ball> balls,
-                                                 const BallUnion& measured, std::uint32_t most, unsigned threads);
+                                                 const BallUnion& measured, const ExchangeRegions& regions,
+                                                 std::uint32_t most, unsigned threads);
 
 }  // namespace medial_vk
