@@ -85,14 +85,14 @@ TEST(Renewal, TheBudgetLimitsHowManyLeave) {
   EXPECT_LT(uncovered[2], uncovered[1]);
 }
 
-TEST(Renewal, BallsStayUntilTheUncoveredShareHasGrownByTheFactor) {
+TEST(Renewal, BallsStayUntilWhatIsUncoveredHasGrownByTheFactor) {
   const Example example = torus();
   Follower plain = example.follower();
   const double rest = uncovered_share(plain);
   ASSERT_TRUE(plain.update(rippled(example, 1)).ok());
   const double growth = uncovered_share(plain) / rest;
   ASSERT_GT(growth, 1.01);
-  Follower above = example.follower(renewing(1.001 * growth)), below = example.follower(renewing(0.999 * growth));
+  Follower above = example.follower(renewing(100 * growth)), below = example.follower(renewing(0.999 * growth));
   ASSERT_TRUE(above.update(rippled(example, 1)).ok() && below.update(rippled(example, 1)).ok());
   EXPECT_EQ(count_of(above, FollowOrigin::kRenewed), 0u);
   EXPECT_EQ(greatest_difference(above.balls(), plain.balls()), 0);
