@@ -234,6 +234,7 @@ class Follower::Impl {
     if (uncovered_share(measurer_.result()) > kDrawn * options_.renewal_factor * rest_share_) return {};
     if (growth_->has_grown(surface_, present_, solid_volume(measurer_.result()), pool_)) return {};
     sides_.return_to_rest();
+    growth_->return_to_rest();
     for (const auto& [i, now] : returned) {
       tracked_[i] = now;
       is_renewed_[i] = 0;

@@ -6,70 +6,75 @@
 namespace medial_vk {
 namespace {
 
-/// By which factor a region grows before another attempt, which takes the time of several frames.
-constexpr double kFurther = 1.25;
-
-/// Balls that have been drawn to rest lie 1e-10 of the longest side away from there, which changes distances of a
-/// thousandth of it or more by less than this share of them.
-constexpr double kNearRest = 1 + 1e-6;
+/// The growth that is worth an attempt, which takes the time of several frames, as a share of all that is uncovered in
+/// the rest pose.
+constexpr double kLeastGrowth = 0.05;
 
 }  // namespace
 
 RegionalGrowth::RegionalGrowth(const MovingSurface& surface, std::span<const Ball> balls, double volume, double factor)
     : samples_(surface, balls),
-      most_(samples_.regions()),
+      factor_(factor),
+      rest_(samples_.regions()),
       tried_(samples_.regions(), 0),
       chosen_(samples_.regions(), 0) {
   samples_.prepare(balls);
-  for (std::uint32_t region = 0; region < most_.size(); ++region) {
+  for (std::uint32_t region = 0; region < rest_.size(); ++region) {
     samples_.tighten(surface, region);
-    most_[region] = share(region, volume);
+    rest_[region] = samples_.volume(region) / volume;
   }
   samples_.keep_for_rest();
-  const double mean = std::accumulate(most_.begin(), most_.end(), 0.0) / static_cast<double>(most_.size());
-  for (double& most : most_) most = kNearRest * factor * std::max(most, mean);
+  least_ = kLeastGrowth * std::accumulate(rest_.begin(), rest_.end(), 0.0);
+}
+
+/// Of a region that has grown by more than the factor, beyond what is known of it; else 0.
+double RegionalGrowth::growth(std::uint32_t region, double known, double volume) const {
+  const double share = samples_.volume(region) / volume;
+  return share > factor_ * rest_[region] ? std::max(0.0, share - std::max(known, rest_[region])) : 0;
+}
+
+/// Upper bounds decide first: in most frames nothing has grown.
+bool RegionalGrowth::choose_beyond(const MovingSurface& surface, std::span<const Ball> balls, double volume,
+                                   std::span<const double> known, WorkerPool& pool) {
+  samples_.bound(surface, balls, pool);
+  std::ranges::fill(chosen_, std::uint8_t{0});
+  double sum = 0;
+  for (std::uint32_t region = 0; region < rest_.size(); ++region) sum += growth(region, known[region], volume);
+  if (!(sum > least_)) return false;
+  samples_.prepare(balls);
+  sum = 0;
+  for (std::uint32_t region = 0; region < rest_.size(); ++region) {
+    if (!(growth(region, known[region], volume) > 0)) continue;
+    samples_.tighten(surface, region);
+    const double grown = growth(region, known[region], volume);
+    chosen_[region] = grown > 0 ? 1 : 0;
+    sum += grown;
+  }
+  return sum > least_;
 }
 
 bool RegionalGrowth::has_grown(const MovingSurface& surface, std::span<const Ball> balls, double volume,
                                WorkerPool& pool) {
-  samples_.bound(surface, balls, pool);
-  bool is_prepared = false;
-  for (std::uint32_t region = 0; region < most_.size(); ++region) {
-    if (!(share(region, volume) > most_[region])) continue;
-    if (!is_prepared) samples_.prepare(balls);
-    is_prepared = true;
-    samples_.tighten(surface, region);
-    if (share(region, volume) > most_[region]) return true;
-  }
-  return false;
+  return choose_beyond(surface, balls, volume, rest_, pool);
 }
 
 bool RegionalGrowth::choose(const MovingSurface& surface, std::span<const Ball> balls, double volume,
                             WorkerPool& pool) {
-  samples_.bound(surface, balls, pool);
-  bool is_prepared = false;
-  for (std::uint32_t region = 0; region < most_.size(); ++region) {
-    chosen_[region] = 0;
-    const double most = std::max(most_[region], kFurther * tried_[region]);
-    if (share(region, volume) > most) {
-      if (!is_prepared) samples_.prepare(balls);
-      is_prepared = true;
-      samples_.tighten(surface, region);
-      chosen_[region] = share(region, volume) > most ? 1 : 0;
-    }
-    if (share(region, volume) <= most_[region]) tried_[region] = 0;
+  const bool is_any = choose_beyond(surface, balls, volume, tried_, pool);
+  for (std::uint32_t region = 0; region < rest_.size(); ++region) {
+    if (samples_.volume(region) <= factor_ * rest_[region] * volume) tried_[region] = 0;
   }
-  return std::ranges::find(chosen_, std::uint8_t{1}) != chosen_.end();
+  return is_any;
 }
 
 void RegionalGrowth::choose_all() { std::ranges::fill(chosen_, std::uint8_t{1}); }
 
 void RegionalGrowth::tried(const MovingSurface& surface, std::span<const Ball> balls, double volume) {
   samples_.prepare(balls);
-  for (std::uint32_t region = 0; region < most_.size(); ++region) {
+  for (std::uint32_t region = 0; region < rest_.size(); ++region) {
     if (chosen_[region] == 0) continue;
     samples_.tighten(surface, region);
-    tried_[region] = share(region, volume);
+    tried_[region] = samples_.volume(region) / volume;
   }
 }
 

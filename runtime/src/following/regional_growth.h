@@ -14,9 +14,9 @@
 
 namespace medial_vk {
 
-/// Regions of the surface whose uncovered share of the solid's volume, as estimated, has grown by more than a factor. A
-/// region whose share at rest is below the mean of all regions counts as one with the mean: where next to nothing is
-/// uncovered, a multiple of it is still nothing.
+/// Regions of the surface whose uncovered share of the solid's volume, as estimated, is more than a factor times that
+/// in the rest pose. They count if together they have grown by more than a twentieth of all that is uncovered in the
+/// rest pose: where next to nothing is uncovered, a multiple of it is still nothing.
 class RegionalGrowth {
  public:
   /// `surface`, `balls` and `volume`, that of the solid: of the rest pose. Throws std::bad_alloc.
@@ -24,10 +24,9 @@ class RegionalGrowth {
 
   const GapSamples& samples() const { return samples_; }
 
-  /// True if a region has grown by more than the factor. A volume that is not a number: false.
+  /// True if there are such regions. A volume that is not a number: false.
   bool has_grown(const MovingSurface& surface, std::span<const Ball> balls, double volume, WorkerPool& pool);
-  /// Chooses the regions that have grown by more than the factor, and since the last tried() by a quarter more; true if
-  /// there is one.
+  /// Chooses those of them that have grown since the last tried(), too, if that growth also counts; true if it does.
   bool choose(const MovingSurface& surface, std::span<const Ball> balls, double volume, WorkerPool& pool);
   /// By region: 1 if it was chosen.
   std::span<const std::uint8_t> chosen() const { return chosen_; }
@@ -38,11 +37,14 @@ class RegionalGrowth {
   void return_to_rest();
 
  private:
-  double share(std::uint32_t region, double volume) const { return samples_.volume(region) / volume; }
+  bool choose_beyond(const MovingSurface& surface, std::span<const Ball> balls, double volume,
+                     std::span<const double> known, WorkerPool& pool);
+  double growth(std::uint32_t region, double known, double volume) const;
 
   GapSamples samples_;
-  // By region, as shares of the volume: with more than the first one, balls are exchanged; what tried() found.
-  std::vector<double> most_, tried_;
+  double factor_;
+  double least_ = 0;                  // growth that counts
+  std::vector<double> rest_, tried_;  // by region, as shares of the volume
   std::vector<std::uint8_t> chosen_;
 };
 
