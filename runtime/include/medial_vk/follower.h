@@ -36,12 +36,13 @@ struct FollowerOptions {
   /// A ball whose object angle, in radians, is below this counts as no longer medial.
   double object_angle = 0.5;
   /// kTangent, for closed meshes: the greatest number of balls that are chosen anew in a frame. Such a ball leaves its
-  /// place for one at a gap between the surface and the balls, if the union grows by that. A frame in which this is
-  /// tried takes the time of some fifteen measure_ball_union(); any other frame takes no time for it with a step, and
-  /// that of one measure_ball_union() without.
+  /// place for one at a gap between the surface and the balls, if the union grows by that and the widest gap does not.
+  /// A frame in which this is tried takes the time of some fifteen measure_ball_union(); any other frame takes next to
+  /// no time for it with a step, and that of one measure_ball_union() without.
   std::uint32_t renewed = 0;
-  /// It is tried in frames whose uncovered share of the volume is more than this many times that in the rest pose (by
-  /// FollowMeasures); from 1 up.
+  /// It is tried in the regions of the surface whose uncovered share of the solid's volume, by an estimate, is more
+  /// than this many times that in the rest pose, once they have grown by a twentieth of all that is uncovered there;
+  /// and everywhere, where that of the whole solid is (by FollowMeasures); from 1 up.
   double renewal_factor = 1.5;
   /// Of the host, 0: one per core; of those, a follower keeps as many as its balls give work to. The result does not
   /// depend on it.

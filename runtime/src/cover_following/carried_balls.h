@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cover_following/patches.h"
-#include "following/moving_surface.h"
+#include "following/surface/moving_surface.h"
 #include "medial_vk/ball.h"
 
 namespace medial_vk {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "ball_unions/unions/union_measurer.h"
-#include "following/moving_surface.h"
+#include "following/surface/moving_surface.h"
 #include "medial_vk/ball.h"
 #include "medial_vk/result.h"
 #include "sphere_fits/quality/envelope.h"

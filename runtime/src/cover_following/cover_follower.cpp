@@ -14,7 +14,7 @@
 #include "cover_following/carried_balls.h"
 #include "cover_following/cavities.h"
 #include "cover_following/patches.h"
-#include "following/moving_surface.h"
+#include "following/surface/moving_surface.h"
 #include "medial_vk/ball_union.h"
 #include "threads/worker_pool.h"
 

@@ -19,7 +19,7 @@
 #include "follow_types.h"
 #include "follower_jobs/rest_balls.h"
 #include "follower_jobs/threaded_tree.h"
-#include "following/moving_surface.h"
+#include "following/surface/moving_surface.h"
 #include "medial_vk/follower.h"
 #include "tree_types.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "follow_types.h"
-#include "following/moving_surface.h"
+#include "following/surface/moving_surface.h"
 #include "medial_vk/ball.h"
 #include "medial_vk/result.h"
 

@@ -1,7 +1,7 @@
 // A step of every ball towards a greater volume of the union (docs/theory.md, "Balls that follow a surface").
 #pragma once
 
-#include "following/moving_surface.h"
+#include "following/surface/moving_surface.h"
 #include "following/tracked_ball.h"
 #include "medial_vk/dynamic_union.h"
 

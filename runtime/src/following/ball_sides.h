@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "following/moving_surface.h"
+#include "following/surface/moving_surface.h"
 #include "medial_vk/ball.h"
 
 namespace medial_vk {

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "following/moving_surface.h"
-#include "following/surface_point.h"
+#include "following/surface/moving_surface.h"
+#include "following/surface/surface_point.h"
 #include "medial_vk/ball.h"
 #include "sphere_fits/quality/nearest_ball_tree.h"
 #include "threads/worker_pool.h"

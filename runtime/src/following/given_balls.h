@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-#include "following/moving_surface.h"
+#include "following/surface/moving_surface.h"
 #include "following/tracked_ball.h"
 #include "medial_vk/ball.h"
 #include "medial_vk/follower.h"

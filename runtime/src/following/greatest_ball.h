@@ -1,7 +1,7 @@
 // The greatest ball that touches a surface at a given point and does not meet it elsewhere.
 #pragma once
 
-#include "following/moving_surface.h"
+#include "following/surface/moving_surface.h"
 #include "following/tracked_ball.h"
 
 namespace medial_vk {

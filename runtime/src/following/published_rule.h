@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "following/moving_surface.h"
+#include "following/surface/moving_surface.h"
 #include "following/tracked_ball.h"
 
 namespace medial_vk {

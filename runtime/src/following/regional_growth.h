@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "following/gap_samples.h"
-#include "following/moving_surface.h"
+#include "following/surface/moving_surface.h"
 #include "medial_vk/ball.h"
 #include "threads/worker_pool.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "following/gap_samples.h"
-#include "following/moving_surface.h"
+#include "following/surface/moving_surface.h"
 #include "following/tracked_ball.h"
 #include "medial_vk/ball_union.h"
 #include "medial_vk/result.h"

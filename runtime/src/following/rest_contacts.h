@@ -1,7 +1,7 @@
 // The contacts by which a ball follows the surface, found where it is given.
 #pragma once
 
-#include "following/moving_surface.h"
+#include "following/surface/moving_surface.h"
 #include "following/tracked_ball.h"
 
 namespace medial_vk {

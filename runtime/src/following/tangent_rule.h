@@ -1,7 +1,7 @@
 // The default rule: a ball follows both of its contacts (docs/theory.md, "Balls that follow a surface").
 #pragma once
 
-#include "following/moving_surface.h"
+#include "following/surface/moving_surface.h"
 #include "following/tracked_ball.h"
 
 namespace medial_vk {

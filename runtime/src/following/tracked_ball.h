@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/point_ops.h"
-#include "following/surface_point.h"
+#include "following/surface/surface_point.h"
 #include "medial_vk/ball.h"
 
 namespace medial_vk {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "following/gap_samples.h"
-#include "following/moving_surface.h"
+#include "following/surface/moving_surface.h"
 #include "medial_vk/ball.h"
 
 namespace medial_vk {

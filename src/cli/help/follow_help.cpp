@@ -39,13 +39,14 @@ The balls:
                         cover: no point of the solid is left out
       --count N         fit so many balls to the mesh at rest (default 500, of a
                         cover 100, as covers take longer)
-      --points          all medial points at --resolution N instead
+      --points          all medial points instead, at --resolution N, which
+                        must then be given
       --balls FILE      balls in a file: a table (CSV) with the columns x, y, z
                         and radius, a medial PLY, or a body file (.npz); "-": a
                         table on standard input. They must be inside, or cover
                         the mesh at rest
       --resolution N    voxels along the longest side, for balls to choose from
-                        (default: by the number of balls)
+                        (default: by the number of balls), or with --points
       --backend NAME    vulkan or cpu (the reference, slow) finds them
       --device NAME     index or part of the name of the Vulkan device
 
@@ -59,8 +60,9 @@ How balls inside follow:
                         in the source, and balls that may reach out a little
       --from-rest       compute each frame from rest, not from the frame before
       --renew N         choose up to N balls of a frame anew, at gaps, where the
-                        uncovered share of the volume has grown (default 25; 0
-                        of an open mesh, with --rig, and as published)
+                        uncovered volume of the solid, or of regions of its
+                        surface, has grown (default 25; 0 of an open mesh, with
+                        --rig, and as published)
       --renew-factor F  to more than F times that at rest (default 1.5)
       --protrusion XI   for published: how far balls may reach out, as a share
                         of the longest side (default 0.0025)

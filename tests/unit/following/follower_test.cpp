@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "following/greatest_ball.h"
-#include "following/moving_surface.h"
+#include "following/surface/moving_surface.h"
 #include "medial_vk/ball_union.h"
 #include "medial_vk/prepare.h"
 #include "support/solids/motions.h"

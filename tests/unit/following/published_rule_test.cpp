@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "following/moving_surface.h"
 #include "following/published_rule.h"
+#include "following/surface/moving_surface.h"
 #include "medial_vk/follower.h"
 #include "medial_vk/prepare.h"
 #include "solid/solid.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "following/ball_sides.h"
-#include "following/surface_point.h"
+#include "following/surface/surface_point.h"
 #include "medial_vk/prepare.h"
 #include "support/indexed.h"
 #include "support/solids/solids.h"

@@ -1,4 +1,4 @@
-#include "following/moving_surface.h"
+#include "following/surface/moving_surface.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "following/surface_point.h"
+#include "following/surface/surface_point.h"
 
 #include <algorithm>
 

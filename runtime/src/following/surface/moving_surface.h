@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bvh/wide_tree.h"
-#include "following/surface_point.h"
+#include "following/surface/surface_point.h"
 #include "medial_vk/ball.h"
 #include "medial_vk/indexed_mesh.h"
 #include "mesh/mesh_topology.h"
