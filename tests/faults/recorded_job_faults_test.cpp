@@ -273,7 +273,8 @@ TEST(FramesOfBalls, AllocateNothing) {
     options.rule = rule;
     options.threads = threads;
     options.steps = steps;
-    options.renewed = renewed;  // where no ball leaves
+    options.renewed = renewed;
+    options.renewal_factor = 4;  // where no ball leaves
     Follower follower = Follower::create(mesh, balls, options).value();
     const int motions = steps > 0 ? 3 : 1;
     for (int motion = 1; motion <= motions; ++motion) {
