@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/stopwatch.h"
+#include "boundary_fields/refined_mesh.h"
 #include "cli/options/measures.h"
 #include "common/file_extension.h"
 #include "medial_vk/curvature.h"
@@ -26,6 +27,8 @@ class BoundaryMeasurer {
   BoundaryMeasurer(const IndexedMesh& mesh, const Options& options, Progress& progress, std::vector<StageTime>& times)
       : mesh_(mesh), options_(options), progress_(progress), times_(times) {}
 
+  void refine() { made_.refined = refine_mesh(mesh_.prepared().mesh, options_.boundary_edge * mesh_.longest_side()); }
+
   Status thickness(bool at_vertices) {
     Stopwatch stopwatch;
     ThicknessOptions how;
@@ -38,7 +41,7 @@ class BoundaryMeasurer {
     made_.record.thickness = summarise_thickness(points, by_area.value(), how.delta, how.width);
     if (at_vertices) {
       Result<std::vector<Thickness>> of_vertices =
-          measure_thickness(mesh_, mesh_.view().vertices, how, shown("thickness at vertices"));
+          measure_thickness(mesh_, made_.surface(mesh_).vertices, how, shown("thickness at vertices"));
       if (!of_vertices) return of_vertices.error();
       add_thickness(made_.fields, of_vertices.value());
     }
@@ -65,11 +68,13 @@ class BoundaryMeasurer {
     VertexCurvatureOptions to_vertices;
     to_vertices.object_angle = options_.extraction.object_angle;
     to_vertices.threads = options_.threads;
+    const Result<IndexedMesh> surface = indexed_surface();
+    if (!surface) return surface.error();
     Result<std::vector<VertexCurvature>> of_vertices =
-        curvature_at_vertices(mesh_, balls, at_tips.value(), to_vertices, on_progress);
+        curvature_at_vertices(surface.value(), balls, at_tips.value(), to_vertices, on_progress);
     if (!of_vertices) return of_vertices.error();
     add_curvature(made_.fields, of_vertices.value(), spheres);
-    made_.record.curvature = summarise_curvature(mesh_.prepared().mesh, made_.fields);
+    made_.record.curvature = summarise_curvature(made_.surface(mesh_), made_.fields);
     times_.push_back({"curvature", stopwatch.lap()});
     return {};
   }
@@ -80,6 +85,12 @@ class BoundaryMeasurer {
   static Point unit(const std::array<float, 3>& spoke) {
     const double length = std::hypot(double{spoke[0]}, double{spoke[1]}, double{spoke[2]});
     return {spoke[0] / length, spoke[1] / length, spoke[2] / length};
+  }
+
+  Result<IndexedMesh> indexed_surface() const {
+    if (!made_.refined) return mesh_;
+    const MeshView view = {made_.refined->vertices, made_.refined->triangles, {}, mesh_.view().closed};
+    return IndexedMesh::build(view, {.threads = options_.threads});
   }
 
   ProgressCallback shown(const char* stage) {
@@ -100,6 +111,7 @@ Result<MeasuredBoundary> measure_boundary(const IndexedMesh& mesh, std::span<con
                                           std::vector<StageTime>& times) {
   const MeasuresOfBoundary needed = measures_of(options);
   BoundaryMeasurer measurer(mesh, options, progress, times);
+  if (options.boundary_edge > 0) measurer.refine();
   if (needed.thickness) {
     if (Status status = measurer.thickness(needed.thickness_at_vertices); !status) return status.error();
   }
@@ -110,8 +122,8 @@ Result<MeasuredBoundary> measure_boundary(const IndexedMesh& mesh, std::span<con
   return measurer.take();
 }
 
-Status encode_boundary_files(const Mesh& mesh, double longest_side, const MeasuredBoundary& measured,
-                             const Options& options, std::vector<OutputFile>& files) {
+Status encode_boundary_files(const IndexedMesh& mesh, const MeasuredBoundary& measured, const Options& options,
+                             std::vector<OutputFile>& files) {
   if (!options.thickness_histogram.empty()) {
     const ThicknessRecord& thickness = *measured.record.thickness;
     const bool is_drawing = file_extension(options.thickness_histogram) == ".svg";
@@ -119,8 +131,8 @@ Status encode_boundary_files(const Mesh& mesh, double longest_side, const Measur
         {options.thickness_histogram, is_drawing ? encode_thickness_svg(thickness) : encode_thickness_csv(thickness)});
   }
   if (options.boundary.empty()) return {};
-  Result<std::string> bytes = encode_boundary(options.boundary, mesh, measured.fields,
-                                              {options.ascii, boundary_colour_of(options), longest_side});
+  Result<std::string> bytes = encode_boundary(options.boundary, measured.surface(mesh), measured.fields,
+                                              {options.ascii, boundary_colour_of(options), mesh.longest_side()});
   if (!bytes) return bytes.error();
   files.push_back({options.boundary, std::move(bytes).value()});
   return {};

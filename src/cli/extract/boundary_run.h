@@ -1,6 +1,7 @@
 // What a run of the main command measures on the boundary, and the files that hold it.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,8 +16,11 @@
 namespace medial_vk::cli {
 
 struct MeasuredBoundary {
-  BoundaryFields fields;
+  std::optional<Mesh> refined;  ///< Of --boundary-edge.
+  BoundaryFields fields;        ///< At the vertices of surface().
   BoundaryRecord record;
+
+  const Mesh& surface(const IndexedMesh& mesh) const { return refined ? *refined : mesh.prepared().mesh; }
 };
 
 /// Measures what the outputs need, and nothing else; appends the seconds of each measure to `times`. `voxel_size` is
@@ -26,7 +30,7 @@ Result<MeasuredBoundary> measure_boundary(const IndexedMesh& mesh, std::span<con
                                           std::vector<StageTime>& times);
 
 /// Appends --boundary and --thickness-histogram. Errors: kCannotWrite (too large for its format).
-Status encode_boundary_files(const Mesh& mesh, double longest_side, const MeasuredBoundary& measured,
-                             const Options& options, std::vector<OutputFile>& files);
+Status encode_boundary_files(const IndexedMesh& mesh, const MeasuredBoundary& measured, const Options& options,
+                             std::vector<OutputFile>& files);
 
 }  // namespace medial_vk::cli

@@ -250,9 +250,7 @@ Status MeshRun::encode() {
   return {};
 }
 
-Status MeshRun::encode_boundary() {
-  return encode_boundary_files(mesh_->prepared().mesh, record_.longest_side, boundary_, options_, files_);
-}
+Status MeshRun::encode_boundary() { return encode_boundary_files(*mesh_, boundary_, options_, files_); }
 
 /// The check reads the numbers as written, back from the bytes of the file. The other formats are made from the same
 /// numbers as a PLY, so their points are checked as that PLY.
@@ -281,7 +279,7 @@ Status MeshRun::draw() {
   shared_.progress.update("picture", 0);
   Stopwatch stopwatch;
   if (options_.look.show == PictureShow::kBoundary) {
-    const Picture drawn = draw_boundary(mesh_->prepared().mesh, boundary_.fields, boundary_colour_of(options_),
+    const Picture drawn = draw_boundary(boundary_.surface(*mesh_), boundary_.fields, boundary_colour_of(options_),
                                         options_.strokes, options_.look);
     return add_picture(drawn, "the CPU", stopwatch);
   }

@@ -12,6 +12,7 @@ struct MeasuresOfBoundary {
   bool curvature = false;  ///< At vertices.
 
   bool any() const { return thickness || curvature; }
+  bool at_vertices() const { return thickness_at_vertices || curvature; }
 };
 
 /// --boundary alone has both; with --thickness or --curvature it has what these name.

@@ -55,6 +55,7 @@ void declare(CLI::App& app, Options& options) {
   add.text("--sheet-curve", "file", options.sheet_curve);
   add.text("--ball-volumes", "file", options.ball_volumes);
   add.text("--boundary", "file", options.boundary);
+  add.real("--boundary-edge", {0.001, 1}, " of the longest side", options.boundary_edge);
   add.text("--thickness-histogram", "file", options.thickness_histogram);
   add.flag("--thickness", options.thickness);
   add.real("--thickness-delta", {0, 0.1, false}, " of the longest side", options.thickness_delta);
@@ -152,6 +153,10 @@ Status check_boundary_options(const Options& options) {
   if (!may_end_in(options.thickness_histogram, ".svg") && !may_end_in(options.thickness_histogram, ".csv")) {
     return usage_error(
         fmt::format("--thickness-histogram: '{}' ends in neither .svg nor .csv", options.thickness_histogram));
+  }
+  if (options.boundary_edge > 0 && !measures_of(options).at_vertices()) {
+    return usage_error(
+        "--boundary-edge is about vertices of the boundary: use it with --boundary, --show boundary or --curvature");
   }
   const Options usual;
   const std::pair<const char*, bool> given[] = {

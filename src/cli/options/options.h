@@ -59,6 +59,7 @@ struct Options {
 
   bool thickness = false;           ///< Measured even if no other output needs it.
   bool curvature = false;           ///< As `thickness`.
+  double boundary_edge = 0;         ///< Fraction of the longest side that edges of the boundary may have; 0: any.
   double thickness_delta = 0.0005;  ///< Fraction of the longest side.
   double thickness_width = 0.01;    ///< Of an interval, relative to its lower end.
 
