@@ -303,8 +303,9 @@ void MeshRun::make_page() {
   if (options_.html.empty()) return;
   shared_.progress.update("page", 0);
   Stopwatch stopwatch;
+  const Mesh& mesh = boundary_.surface(*mesh_);
   files_.push_back(
-      {options_.html, encode_page(mesh_->prepared().mesh, analysis_.spheres, record_, options_.look.view.up)});
+      {options_.html, encode_page(mesh, analysis_.spheres, record_, options_.look.view.up, boundary_.fields)});
   record_.host_times.push_back({"page", stopwatch.lap()});
 }
 
