@@ -60,7 +60,7 @@ ThicknessRecord summarise_thickness(std::span<const Point> points, std::vector<T
     upper.push_back(interval.upper);
     if (interval.upper - interval.lower > kWideInterval * interval.lower) ++record.wide;
     record.greatest = std::max(record.greatest, interval.upper);
-    const bool is_wall = at_points[i].ball.radius > 0 && at_points[i].object_angle >= kWallAngle;
+    const bool is_wall = at_points[i].object_angle >= kWallAngle && 2 * at_points[i].ball.radius >= kWallDeltas * delta;
     if (is_wall && (!record.least || interval.lower < record.least->lower)) {
       record.least = interval;
       record.least_at = points[i];

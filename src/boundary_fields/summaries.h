@@ -27,9 +27,10 @@ struct ThicknessRecord {
 
 /// An interval that is no wider tells one wall from another.
 inline constexpr double kWideInterval = 0.1;
-/// Radians. A ball of a greater object angle is in a wall: at an edge of two faces it is half the turn of the normal,
-/// pi / 4 at a right angle.
-inline constexpr double kWallAngle = 1.0;
+/// A ball is in a wall if it has this object angle, in radians, and a diameter of this many deltas. At a right-angled
+/// edge the object angle is pi / 4 for points of contact alone, and with points within delta of a ball of radius r
+/// pi / 4 + acos(r / (r + delta)), which is 1.371 for r = 5 delta and less for larger ones.
+inline constexpr double kWallAngle = 1.4, kWallDeltas = 10;
 
 ThicknessRecord summarise_thickness(std::span<const Point> points, std::vector<Thickness> at_points, double delta,
                                     double width);

@@ -145,7 +145,6 @@ Status take_colour(Options& options) {
 
 /// Options about what is measured on the boundary.
 Status check_boundary_options(const Options& options) {
-  if (options.boundary == "-") return usage_error("--boundary: the format follows from a name, so it cannot be -");
   if (!may_end_in(options.boundary, ".ply") && !may_end_in(options.boundary, ".glb") &&
       !may_end_in(options.boundary, ".vtp")) {
     return usage_error(fmt::format("--boundary: '{}' ends in none of .ply, .glb and .vtp", options.boundary));

@@ -26,7 +26,7 @@ std::string encode_boundary_vtp(const Mesh& mesh, const BoundaryFields& fields);
 Result<std::string> encode_boundary_glb(const Mesh& mesh, const BoundaryFields& fields, BoundaryColour colour,
                                         double longest_side);
 
-/// Chooses the format by the extension of `path`: .glb, .vtp, else PLY.
+/// Chooses the format by the extension of `path`: .glb, .vtp; else PLY, also for standard output.
 Result<std::string> encode_boundary(const std::string& path, const Mesh& mesh, const BoundaryFields& fields,
                                     const BoundaryFileOptions& options);
 

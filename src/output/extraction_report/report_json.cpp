@@ -256,6 +256,7 @@ Json thickness_json(const std::optional<ThicknessRecord>& record) {
           {"median", {{"lower", record->median.lower}, {"upper", record->median.upper}}},
           {"least_in_a_wall", least},
           {"wall_angle", kWallAngle},
+          {"wall_deltas", kWallDeltas},
           {"greatest", record->greatest},
           {"wide_interval", kWideInterval},
           {"wide_share", static_cast<double>(record->wide) / points}};
