@@ -99,7 +99,7 @@ std::string describe_thickness(const ThicknessRecord& record) {
                         record.least->upper, at[0], at[1], at[2]);
   }
   const double points = static_cast<double>(std::max<std::size_t>(record.intervals.size(), 1));
-  return text + fmt::format("; wider than {:g} % at {:.2g} % of the area; delta {:.3g}", 100 * kWideInterval,
+  return text + fmt::format("; wider than {:g} % at {:.3g} % of the area; delta {:.3g}", 100 * kWideInterval,
                             100 * static_cast<double>(record.wide) / points, record.delta);
 }
 
@@ -107,7 +107,7 @@ std::string describe_curvature(const CurvatureRecord& record) {
   const auto range = [](const std::optional<CurvatureRecord::Range>& of) {
     return of ? fmt::format("{:.3g} to {:.3g}", of->least, of->greatest) : std::string("unknown");
   };
-  return fmt::format("kappa 1 {}, kappa 2 {}; unknown at {:.2g} % of the area", range(record.kappa_1),
+  return fmt::format("kappa 1 {}, kappa 2 {}; unknown at {:.3g} % of the area", range(record.kappa_1),
                      range(record.kappa_2), 100 * record.unknown_share);
 }
 
