@@ -36,12 +36,12 @@ class BoundaryMeasurer {
     how.width = options_.thickness_width;
     how.threads = options_.threads;
     const std::vector<Point> points = sample_surface(mesh_.prepared().mesh, kPointsByArea);
-    Result<std::vector<Thickness>> by_area = measure_thickness(mesh_, points, how, shown("thickness by area"));
+    Result<std::vector<Thickness>> by_area = measure_thickness(mesh_, points, how, shown("thickness"));
     if (!by_area) return by_area.error();
     made_.record.thickness = summarise_thickness(points, by_area.value(), how.delta, how.width);
     if (at_vertices) {
       Result<std::vector<Thickness>> of_vertices =
-          measure_thickness(mesh_, made_.surface(mesh_).vertices, how, shown("thickness at vertices"));
+          measure_thickness(mesh_, made_.surface(mesh_).vertices, how, shown("vertices"));
       if (!of_vertices) return of_vertices.error();
       add_thickness(made_.fields, of_vertices.value());
     }

@@ -16,7 +16,8 @@ MeasuresOfBoundary measures_of(const Options& options) {
   MeasuresOfBoundary out;
   out.thickness = options.thickness || !options.thickness_histogram.empty() || by_thickness || (in_file && !names_one);
   out.curvature = options.curvature || options.strokes || by_curvature || (in_file && !names_one);
-  out.thickness_at_vertices = out.thickness && (in_file || by_thickness || !options.html.empty());
+  const bool is_for_vertices = options.thickness || (in_file && !names_one);
+  out.thickness_at_vertices = by_thickness || (is_for_vertices && (in_file || !options.html.empty()));
   return out;
 }
 

@@ -53,7 +53,7 @@ std::string with_grey(const std::string& title, const std::vector<Vector3f>& col
 BoundaryColours by_thickness(const BoundaryFields& fields) {
   const std::vector<double>& lower = fields.find(field_names::kThicknessLower)->values;
   const std::vector<double>& upper = fields.find(field_names::kThicknessUpper)->values;
-  // A lower end of 0 means that no ball was found; the other intervals are narrow, or their lower ends are proved.
+  // Colours show lower ends, which are proved. Where no ball was found, little is known, but for thin places.
   const double greatest = lower.empty() ? 1 : std::max(*std::ranges::max_element(lower), 0.0);
   BoundaryColours out;
   out.of_vertices.reserve(lower.size());

@@ -40,6 +40,7 @@ TEST(BoundaryOptions, OnlyWhatAnOutputNeedsIsMeasured) {
   EXPECT_EQ(measures({"--boundary", "b.ply", "--thickness"}), "tv");
   EXPECT_EQ(measures({"--boundary", "b.ply", "--curvature"}), "c");
   EXPECT_EQ(measures({"--boundary", "b.ply", "--curvature", "--thickness"}), "tvc");
+  EXPECT_EQ(measures({"--boundary", "b.ply", "--curvature", "--thickness-histogram", "h.svg"}), "tc");
   EXPECT_EQ(measures({"--html", "a.html", "--thickness"}), "tv");
   EXPECT_EQ(measures({"--picture", "p.png", "--show", "boundary"}), "tv");
   EXPECT_EQ(measures({"--picture", "p.png", "--show", "boundary", "--colour", "kappa2"}), "c");
