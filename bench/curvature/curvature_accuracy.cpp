@@ -26,6 +26,7 @@ struct Settings {
   std::uint32_t triangles = 16000, resolution = 160;
   double object_angle = 0.3, jitter = 0;
   unsigned threads = 0;
+  bool only_vertices = false;
 };
 
 double angle_between(const Point& a, const Point& b) { return kDegrees * std::atan2(length(cross(a, b)), dot(a, b)); }
@@ -71,7 +72,7 @@ class Errors {
     estimates_.add(100 * estimate / scale);
     normals_.add(angle_between(normal, truth.normal));
     // Where both curvatures are nearly equal, every direction is nearly principal.
-    if (truth.kappa[0] - truth.kappa[1] < least_scale_) return;
+    if (truth.kappa[0] - truth.kappa[1] < least_scale_ || std::isnan(direction[0])) return;
     const double angle = angle_between(direction, truth.directions[0]);
     directions_.add(std::min(angle, 180 - angle));
   }
@@ -152,17 +153,51 @@ void measure_balls(const SmoothBoundary& solid, const std::vector<MedialSphere>&
   fmt::print(stderr, "{}: {} balls, {:.1f} s\n", solid.name, balls.size(), seconds.count());
 }
 
+/// At the vertices, from balls of every object angle.
+void measure_vertices(const SmoothBoundary& solid, const std::vector<MedialSphere>& spheres,
+                      CurvatureAssignment assignment, const Settings& settings, Errors& errors) {
+  std::vector<Ball> balls;
+  for (const MedialSphere& sphere : spheres) balls.push_back({sphere.centre, sphere.radius});
+  CurvatureOptions options;
+  options.threads = settings.threads;
+  const BoundaryCurvature curvature = measure_curvature(balls, options).value();
+  VertexCurvatureOptions vertex_options;
+  vertex_options.assignment = assignment;
+  vertex_options.threads = settings.threads;
+  vertex_options.object_angle = settings.object_angle;
+  auto mesh = IndexedMesh::build(prepare_mesh(solid.mesh).value().view());
+  const auto begin = std::chrono::steady_clock::now();
+  const auto result = curvature_at_vertices(mesh.value(), balls, curvature, vertex_options).value();
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  const auto vertices = mesh.value().view().vertices;
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    if (!solid.is_known(vertices[i])) continue;
+    if (is_known(result[i].state)) {
+      errors.add(solid.nearest(vertices[i]), result[i].normal, result[i].kappa, result[i].directions[0],
+                 result[i].error);
+    } else {
+      errors.add_unknown();
+    }
+  }
+  fmt::print(stderr, "{}: {} vertices, {:.2f} s\n", solid.name, result.size(), seconds.count());
+}
+
 void measure_solid(const std::string& name, const Settings& settings, Context& context) {
   SmoothBoundary solid = make_boundary(name, settings.triangles);
   if (settings.jitter > 0) solid.jitter(settings.jitter, 1);
   const double greatest = greatest_curvature(solid);
   const std::vector<MedialSphere> spheres = extract(solid, settings, context);
-  Errors fits(greatest), differences(greatest), at_vertices(greatest);
+  Errors fits(greatest), differences(greatest), at_vertices(greatest), along(greatest), cells(greatest);
+  measure_vertices(solid, spheres, CurvatureAssignment::kAlongSurface, settings, along);
+  along.print(name, "along the surface");
+  measure_vertices(solid, spheres, CurvatureAssignment::kVoronoi, settings, cells);
+  cells.print(name, "cells");
+  if (settings.only_vertices) return;
   measure_balls(solid, spheres, CurvatureMethod::kFits, fits, settings);
   fits.print(name, "fits");
   measure_balls(solid, spheres, CurvatureMethod::kDifferences, differences, settings);
   differences.print(name, "differences");
-  const std::vector<VertexCurvature> vertices = mesh_curvature(solid.mesh);
+  const std::vector<MeshCurvature> vertices = mesh_curvature(solid.mesh);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (!solid.is_known(solid.mesh.vertices[i])) continue;
     at_vertices.add(solid.nearest(solid.mesh.vertices[i]), vertices[i].normal, vertices[i].kappa,
@@ -177,11 +212,12 @@ int main(int argc, char** argv) {
   Settings settings;
   CLI::App app("Curvatures from medial balls against formulas");
   app.add_option("--solids", settings.solids,
-                 "triaxial, oblate, pipe, plate, flat torus, tight torus, slivers, lantern");
+                 "triaxial, oblate, pipe, plate, flat torus, tight torus, slivers, lantern, capsule, disc");
   app.add_option("--triangles", settings.triangles, "about, by solid");
   app.add_option("--resolution", settings.resolution, "voxels along the longest side");
   app.add_option("--object-angle", settings.object_angle, "of the balls that are found");
   app.add_option("--jitter", settings.jitter, "vertices are moved by up to this share of their shortest edge");
+  app.add_flag("--only-vertices", settings.only_vertices, "only assignments to vertices");
   app.add_option("--threads", settings.threads, "of the host, 0: all");
   CLI11_PARSE(app, argc, argv);
   auto context = Context::create();

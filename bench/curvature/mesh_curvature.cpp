@@ -68,7 +68,7 @@ Eigen::Matrix3d form_of(const Face& face, const std::array<Vector3d, 3>& normals
 
 }  // namespace
 
-std::vector<VertexCurvature> mesh_curvature(const Mesh& mesh) {
+std::vector<MeshCurvature> mesh_curvature(const Mesh& mesh) {
   const std::size_t count = mesh.vertices.size();
   std::vector<Vector3d> normals(count, Vector3d::Zero());
   std::vector<Eigen::Matrix3d> forms(count, Eigen::Matrix3d::Zero());
@@ -93,7 +93,7 @@ std::vector<VertexCurvature> mesh_curvature(const Mesh& mesh) {
       areas[t[k]] += face.shares[k];
     }
   }
-  std::vector<VertexCurvature> out(count);
+  std::vector<MeshCurvature> out(count);
   for (std::size_t i = 0; i < count; ++i) {
     out[i].normal = point(normals[i]);
     const Vector3d x = eigen(perpendicular_to(out[i].normal)), y = normals[i].cross(x);

@@ -9,7 +9,7 @@
 
 namespace medial_vk::bench {
 
-struct VertexCurvature {
+struct MeshCurvature {
   Point normal = {0, 0, 0};
   std::array<double, 2> kappa = {0, 0};  ///< The greater one first, positive where convex.
   std::array<Point, 2> directions = {};
@@ -17,6 +17,6 @@ struct VertexCurvature {
 
 /// By vertex. The form of a face is the one of least squares for the turn of the vertex normals along its sides; that
 /// of a vertex is the mean of its faces, with the areas of its Voronoi cell as weights.
-std::vector<VertexCurvature> mesh_curvature(const Mesh& mesh);
+std::vector<MeshCurvature> mesh_curvature(const Mesh& mesh);
 
 }  // namespace medial_vk::bench

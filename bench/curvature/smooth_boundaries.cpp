@@ -72,6 +72,33 @@ SmoothBoundary pipe(const std::string& name, std::uint32_t around, std::uint32_t
   return out;
 }
 
+/// A sphere, scaled to `axes` and moved onto the boundary.
+void wrap(SmoothBoundary& solid, const Point& axes, std::uint32_t triangles) {
+  solid.mesh = test::make_sphere(1, triangles);
+  for (Point& v : solid.mesh.vertices) v = solid.nearest({axes[0] * v[0], axes[1] * v[1], axes[2] * v[2]}).position;
+}
+
+constexpr double kCapped = 4, kDisc = 2, kRound = 0.5;  // lengths and radii of solids with round ends
+
+/// The balls of radius 1 around a segment along z.
+SmoothBoundary capsule(const std::string& name, std::uint32_t triangles) {
+  SmoothBoundary out = {name, {}, {}, {}};
+  out.height = [](const Point& p) { return std::hypot(p[0], p[1], std::max(0.0, std::fabs(p[2]) - kCapped / 2)) - 1; };
+  // Where the cap begins one curvature jumps.
+  out.is_known = [](const Point& p) { return std::fabs(std::fabs(p[2]) - kCapped / 2) > 0.1; };
+  wrap(out, {1, 1, kCapped / 2 + 1}, triangles);
+  return out;
+}
+
+/// The balls around a disc in the plane z = 0: a plate with a round rim.
+SmoothBoundary disc(const std::string& name, std::uint32_t triangles) {
+  SmoothBoundary out = {name, {}, {}, {}};
+  out.height = [](const Point& p) { return std::hypot(std::max(0.0, std::hypot(p[0], p[1]) - kDisc), p[2]) - kRound; };
+  out.is_known = [](const Point& p) { return std::fabs(std::hypot(p[0], p[1]) - kDisc) > 0.05; };
+  wrap(out, {kDisc + kRound, kDisc + kRound, kRound}, triangles);
+  return out;
+}
+
 constexpr double kSide = 10;
 
 double half_thickness(double x, double y) { return 0.5 + 0.15 * std::sin(0.8 * x) * std::cos(0.65 * y + 0.4); }
@@ -184,6 +211,8 @@ SmoothBoundary make_boundary(const std::string& name, std::uint32_t triangles) {
   if (name == "pipe") return pipe(name, sized(160), sized(24), false);
   if (name == "lantern") return pipe(name, sized(120), sized(32) + 1, true);
   if (name == "plate") return plate(triangles);
+  if (name == "capsule") return capsule(name, triangles);
+  if (name == "disc") return disc(name, triangles);
   return {};
 }
 

@@ -11,7 +11,8 @@ const kSheets = [[230, 159, 0], [86, 180, 233], [0, 158, 115], [213, 94, 0], [20
 export const kSheetColours = kSheets.length;
 
 const css = ([r, g, b]) => `rgb(${r} ${g} ${b})`;
-export const viridisGradient = () => `linear-gradient(to right, ${kViridis.map(css).join(', ')})`;
+export const kViridisCss = kViridis.map(css);
+export const viridisGradient = () => `linear-gradient(to right, ${kViridisCss.join(', ')})`;
 export const sheetColour = (sheet) => sheet < 0 ? 'rgb(140 148 158)' : css(kSheets[sheet % kSheets.length]);
 
 function viridis(share) {

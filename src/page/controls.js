@@ -1,5 +1,6 @@
 // The form beside the canvas, the keys, and the selection.
-import {kAttributes, kSheetColours, sheetColour, viridisGradient} from './colours.js';
+import {vertexValues} from './boundary.js';
+import {kAttributes, kSheetColours, kViridisCss, sheetColour} from './colours.js';
 import {brief, grouped, lengthFormat} from './format.js';
 import {bindDialogs, bindFold, bindKeys, byId, followTheme, rows} from './page_parts.js';
 import {kLayers} from './viewer.js';
@@ -56,6 +57,7 @@ export class Controls {
     this.viewer.onRest = () => this.sayBalls();
     // On a narrow screen the legend is a strip across the picture.
     this.viewer.stripBelow = () => (byId('legend').offsetWidth === byId('stage').clientWidth ? byId('legend').offsetHeight : 0);
+    this.offerColours();
     this.refresh();
     byId('up').value = scene.up;
     this.viewer.setUp(scene.up);
@@ -69,6 +71,7 @@ export class Controls {
       'cut-flip', 'cut-offset']) {
       byId(id).addEventListener('input', () => this.refresh());
     }
+    byId('mesh-colour').addEventListener('input', () => this.paintMesh());
     byId('up').addEventListener('change', (event) => this.viewer.setUp(event.target.value));
     byId('reset').addEventListener('click', () => this.viewer.resetView());
     byId('clear-picked').addEventListener('click', () => this.choose(-1));
@@ -87,6 +90,29 @@ export class Controls {
     this.refreshColour();
     this.refreshCut();
     this.refreshFilter();
+  }
+
+  /** The colours of the boundary, if it was measured. */
+  offerColours() {
+    const {boundary} = this.scene;
+    byId('boundary').hidden = !boundary;
+    for (const {name, label} of boundary?.colours ?? []) byId('mesh-colour').append(new Option(label, name));
+  }
+
+  /** A coloured mesh is opaque at first, as its colours could not be read through one another. */
+  paintMesh() {
+    const name = byId('mesh-colour').value;
+    if (name && !this.viewer.isPainted) byId('opacity').value = 100;
+    this.viewer.paintMesh(name || null);
+    if (!name) this.chooseVertex(-1);
+    this.refreshOpacity();
+    this.refreshColour();
+  }
+
+  chooseVertex(v) {
+    byId('vertex-none').hidden = v >= 0;
+    byId('vertex-values').hidden = v < 0;
+    if (v >= 0) rows(byId('vertex-values'), vertexValues(this.scene.boundary, v));
   }
 
   refreshOpacity() {
@@ -117,17 +143,36 @@ export class Controls {
     const legend = byId('legend');
     const title = document.createElement('p');
     title.textContent = kAttributes[attribute].label;
-    legend.replaceChildren(title, ...(attribute === 'sheet' ? this.swatches() : this.bar(scale * least, scale * greatest)));
+    legend.replaceChildren(...this.legendOfMesh(), title,
+      ...(attribute === 'sheet' ? this.swatches() : this.bar(scale * least, scale * greatest)));
+  }
+
+  legendOfMesh() {
+    const colour = this.scene.boundary?.colours.find(({name}) => name === byId('mesh-colour').value);
+    if (!colour) return [];
+    const title = Object.assign(document.createElement('p'), {textContent: colour.title});
+    if (colour.bar.length > 0) return [title, ...this.barOf(colour.bar, [colour.least, colour.greatest])];
+    const list = document.createElement('ul');
+    for (const [css, name] of colour.swatches) {
+      const swatch = document.createElement('i'), item = document.createElement('li');
+      swatch.style.background = css;
+      item.append(swatch, name);
+      list.append(item);
+    }
+    return [title, list];
   }
 
   bar(least, greatest) {
+    return this.barOf(kViridisCss, [least, (least + greatest) / 2, greatest].map(brief));
+  }
+
+  /** `colours` of CSS from end to end; `numbers` as text. */
+  barOf(colours, numbers) {
     const bar = document.createElement('div'), ends = document.createElement('div');
     bar.className = 'bar';
-    bar.style.background = viridisGradient();
+    bar.style.background = `linear-gradient(to right, ${colours.join(', ')})`;
     ends.className = 'ends';
-    for (const value of [least, (least + greatest) / 2, greatest]) {
-      ends.append(Object.assign(document.createElement('span'), {textContent: brief(value)}));
-    }
+    ends.append(...numbers.map((text) => Object.assign(document.createElement('span'), {textContent: text})));
     return [bar, ends];
   }
 
@@ -226,7 +271,10 @@ export class Controls {
       down = null;
       if (moved > kClick) return;
       const {left, top} = canvas.getBoundingClientRect();
-      this.choose(this.viewer.pickAt(event.clientX - left, event.clientY - top));
+      const place = [event.clientX - left, event.clientY - top];
+      const isOpaque = this.viewer.isPainted && Number(byId('opacity').value) === 100;
+      if (!isOpaque) this.choose(this.viewer.pickAt(...place));
+      if (isOpaque || this.pickedPoint < 0) this.chooseVertex(this.viewer.vertexAt(...place));
     });
   }
 

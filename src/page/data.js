@@ -1,4 +1,5 @@
 // The data that medial-vk has written into the page.
+import {readBoundary} from './boundary.js';
 
 function bytesOf(text) {
   if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
@@ -27,6 +28,7 @@ export function readScene() {
   const scene = json('scene');
   return {
     ...scene,
+    boundary: readBoundary(scene.boundary),
     vertices: block('vertices', Float32Array),
     triangles: block('triangles', Uint32Array),
     centres: block('centres', Float32Array),

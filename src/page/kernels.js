@@ -25,6 +25,7 @@ export function commonUniforms() {
     viewport: {value: new Vector2(1, 1)},
     density: {value: 1},
     glass: {value: new Vector3()},
+    painted: {value: 0},  // 1: the mesh has the colours of its corners instead of that of glass.
     crease: {value: new Vector3()},
   };
 }
@@ -52,18 +53,29 @@ export function placed(object, order) {
 }
 
 export class MeshLayer {
-  /** `geometry`: positions and normals of triangles. */
+  /** `geometry`: positions and normals of triangles, and possibly colours. */
   constructor(geometry, uniforms) {
     this.uniforms = uniforms;
+    this.geometry = geometry;
+    const coloured = geometry.getAttribute('paint') ? {PAINTED: ''} : {};
     const vertex = common + meshVertex, fragment = common + meshFragment;
     const plain = {defines: {PLAIN: ''}};
     this.objects = [
-      placed(new Mesh(geometry, material(vertex, fragment, uniforms, {...kOver, side: BackSide, defines: {BACK: ''}})),
+      placed(new Mesh(geometry, material(vertex, fragment, uniforms, {...kOver, side: BackSide, defines: {BACK: '', ...coloured}})),
         kOrder.back),
       placed(new Mesh(geometry, material(vertex, fragment, uniforms, {...plain, side: FrontSide, colorWrite: false,
         polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 2})), kOrder.depth),
-      placed(new Mesh(geometry, material(vertex, fragment, uniforms, {...kOver, side: FrontSide})), kOrder.front),
+      placed(new Mesh(geometry, material(vertex, fragment, uniforms, {...kOver, side: FrontSide, defines: coloured})), kOrder.front),
     ];
+  }
+
+  /** `fill`: writes the colours of all corners, four bytes each; null: glass. */
+  paint(fill) {
+    this.uniforms.painted.value = fill ? 1 : 0;
+    if (!fill) return;
+    const colours = this.geometry.getAttribute('paint');
+    fill(colours.array);
+    colours.needsUpdate = true;
   }
 
   /** Lines along creases. */

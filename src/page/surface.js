@@ -106,12 +106,13 @@ function creaseLines(vertices, triangles) {
   return new Float32Array(lines);
 }
 
-/** For MeshLayer. */
-export function surfaceGeometry({vertices, triangles}) {
+/** For MeshLayer; with colours that change (MeshLayer.paint()) if there is a `boundary`. */
+export function surfaceGeometry({vertices, triangles, boundary}) {
   const {positions, normals} = cornerGeometry(vertices, triangles);
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new BufferAttribute(positions, 3));
   geometry.setAttribute('normal', new BufferAttribute(normals, 4, true));
+  if (boundary) geometry.setAttribute('paint', new BufferAttribute(new Uint8Array(4 * triangles.length), 4, true));
   return geometry;
 }
 

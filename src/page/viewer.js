@@ -1,6 +1,7 @@
 // The canvas of the page of a run: layers, cut, filter and picking.
 import {Matrix4, Plane, Vector3} from 'three';
 
+import {cornerColours, vertexOnRay} from './boundary.js';
 import {kAttributes, kThemes} from './colours.js';
 import {kCornersOfABall, MeshLayer} from './kernels.js';
 import {makeUniforms, PickedLayer, PointLayers} from './layers.js';
@@ -63,6 +64,14 @@ export class Viewer extends View {
     this.draw();
   }
 
+  /** The name of a colour of the boundary; null: the mesh is glass. */
+  paintMesh(name) {
+    const colour = this.scene.boundary?.colours.find((each) => each.name === name);
+    this.isPainted = Boolean(colour);
+    this.mesh.paint(colour ? (array) => cornerColours(colour.ofVertices, this.scene.triangles, array) : null);
+    this.draw();
+  }
+
   setLeast(angle, radius) {
     this.least = {angle, radius};
     this.uniforms.leastAngleRadius.value.set(angle, radius);
@@ -122,18 +131,29 @@ export class Viewer extends View {
     return [(place.x + 1) / 2 * clientWidth, (1 - place.y) / 2 * clientHeight];
   }
 
-  /** The point or ball at a position of the canvas, in CSS pixels; -1: none. */
-  pickAt(x, y) {
+  /** The ray through a position of the canvas, in CSS pixels, in the model. */
+  rayAt(x, y) {
     const {clientWidth, clientHeight} = this.canvas;
     this.root.updateMatrixWorld();
     const inverse = new Matrix4().copy(this.model.matrixWorld).invert();
     const origin = this.camera.position.clone();
     const direction = new Vector3(2 * x / clientWidth - 1, 1 - 2 * y / clientHeight, 0.5).unproject(this.camera)
       .sub(origin).transformDirection(inverse);
+    return {origin: origin.applyMatrix4(inverse).toArray(), direction: direction.toArray()};
+  }
+
+  /** The vertex at a position of the canvas, if the mesh is painted; -1: none. */
+  vertexAt(x, y) {
+    if (!this.isPainted || !this.shown.mesh) return -1;
+    return vertexOnRay(this.scene, this.rayAt(x, y), this.plane);
+  }
+
+  /** The point or ball at a position of the canvas, in CSS pixels; -1: none. */
+  pickAt(x, y) {
     const marks = this.shown.points || this.shown.sheets || this.shown.spokes;
     const radius = this.shown.sheets ? this.uniforms.discRadius.value : this.uniforms.pointRadius.value;
     return pick(this.scene, {
-      ray: {origin: origin.applyMatrix4(inverse).toArray(), direction: direction.toArray()},
+      ray: this.rayAt(x, y),
       plane: this.plane,
       visible: (i) => this.passesFilter(i),
       order: this.shown.balls ? this.points.order : [],

@@ -337,6 +337,13 @@ TEST_P(Interrupted, EndsAtOnceWhileItDraws) {
   EXPECT_THAT(folder_.names(), ElementsAre("part.obj"));
 }
 
+/// The thickness of half a million vertices takes minutes.
+TEST_P(Interrupted, EndsAtOnceWhileItMeasuresTheBoundary) {
+  test::Tool tool(cpu_call({"part.obj", "--thickness", "--boundary", "b.ply", "--boundary-edge", "0.003"}));
+  expect_end_at_once(tool, GetParam());
+  EXPECT_THAT(folder_.names(), ElementsAre("part.obj"));
+}
+
 INSTANTIATE_TEST_SUITE_P(, Interrupted, testing::Values(SIGINT, SIGTERM));
 
 }  // namespace

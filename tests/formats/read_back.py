@@ -24,6 +24,7 @@ except ImportError as error:
     print(f"SKIPPED: {error}; Debian has it in python3-numpy and python3-meshio")
     sys.exit(77)
 
+import boundary_cases  # noqa: E402
 from glb_cases import glb, glb_gpu_instancing, glb_mesh_by_assimp, glb_nodes_by_assimp  # noqa: E402
 
 COLUMNS = ["x", "y", "z", "radius"] + [f"spoke_{s}_{a}" for s in "ab" for a in "xyz"] + ["object_angle", "flux", "sheet"]
@@ -282,7 +283,7 @@ CASES = {"ply": ply, "ply_text": ply_text, "csv": csv_table, "npz": npz, "json":
          "mesh_ply_text": mesh_ply_text, "glb": glb, "glb_nodes_by_assimp": glb_nodes_by_assimp,
          "glb_gpu_instancing": glb_gpu_instancing, "glb_mesh_by_assimp": glb_mesh_by_assimp,
          "medial_mesh_ply": medial_mesh_ply, "medial_mesh_ply_text": medial_mesh_ply_text,
-         "medial_mesh_ma": medial_mesh_ma}
+         "medial_mesh_ma": medial_mesh_ma, **boundary_cases.CASES}
 
 
 def main():

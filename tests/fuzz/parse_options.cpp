@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "cli/options/measures.h"
 #include "cli/options/options.h"
 #include "fuzz/arguments.h"
 
@@ -20,12 +21,20 @@ void require_in_range(const cli::Options& options) {
   require(p.memory_budget == 0 || p.memory_budget >= 64u << 20, "--memory keeps its range");
   require(!(options.quiet && options.verbose), "-q and -v exclude each other");
   require(options.sphere_detail.value_or(0) <= kGreatestSphereDetail, "--sphere-detail keeps its range");
+  require(options.thickness_delta > 0 && options.thickness_delta < 0.1, "--thickness-delta keeps its range");
+  require(options.thickness_width >= 1e-6 && options.thickness_width <= 1, "--thickness-width keeps its range");
+  require(options.boundary_edge == 0 || (options.boundary_edge >= 0.001 && options.boundary_edge <= 1),
+          "--boundary-edge keeps its range");
   const PictureOptions& look = options.look;
   require(std::ranges::any_of(look.view.towards, [](double x) { return x != 0; }), "--view is a direction");
   require(std::ranges::all_of(look.size, [](std::uint32_t n) { return n <= kGreatestPictureSide; }),
           "--size keeps its range");
   if (options.action != cli::Action::kExtract) return;
   require(!options.mesh.empty(), "there is a mesh");
+  require(!options.strokes || look.show == PictureShow::kBoundary, "strokes are on the boundary");
+  const cli::MeasuresOfBoundary needed = cli::measures_of(options);
+  require(options.boundary.empty() || needed.at_vertices(), "a boundary has something at its vertices");
+  require(options.thickness_histogram.empty() || needed.thickness, "a histogram has thickness");
   require(!options.output.empty(), "there is an output");
   require(options.output == "-" || options.output != options.mesh, "the mesh is not overwritten");
   require(options.output != options.report && options.output != options.picture, "results do not replace each other");

@@ -2,6 +2,7 @@
 //   node run.mjs TOOL TEST
 // TOOL: medial-vk, or make_motion_page for the tests of the page of a motion, whose names begin with motion_.
 // The exit code is 77 if there is no Chromium, or if the tool was built without its page.
+import {boundaryTests} from './boundary_tests.mjs';
 import {Browser, findChromium} from './browser.mjs';
 import {Workshop} from './fixtures.mjs';
 import {motionCoverTests} from './motion_cover_tests.mjs';
@@ -9,7 +10,7 @@ import {motionTests} from './motion_tests.mjs';
 import {tests as pageTests} from './tests.mjs';
 import {viewTests} from './view_tests.mjs';
 
-const tests = {...pageTests, ...viewTests};
+const tests = {...pageTests, ...viewTests, ...boundaryTests};
 for (const [name, test] of Object.entries({...motionTests, ...motionCoverTests})) tests[`motion_${name}`] = test;
 
 function skip(why) {

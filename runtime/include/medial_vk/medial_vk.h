@@ -43,3 +43,4 @@
 #include "medial_vk/sphere_proofs.h"
 #include "medial_vk/thickness.h"
 #include "medial_vk/version.h"
+#include "medial_vk/vertex_curvature.h"

@@ -11,6 +11,7 @@
 #include "base/stopwatch.h"
 #include "check_reports/check_sheets.h"
 #include "cli/extract/summary.h"
+#include "cli/options/measures.h"
 #include "cli/shared/load.h"
 #include "cli/shared/reference_with_estimate.h"
 #include "cli/terminal/interrupt.h"
@@ -23,6 +24,7 @@
 #include "output/medial_formats/encode_medial_mesh.h"
 #include "output/medial_formats/encode_points.h"
 #include "output/page/page.h"
+#include "output/picture/boundary_picture.h"
 #include "output/picture/picture.h"
 #include "reference_bridge/check_balls.h"
 
@@ -169,6 +171,19 @@ void MeshRun::describe() {
   }
 }
 
+Status MeshRun::measure() {
+  if (!measures_of(options_).any()) return {};
+  const EndAtOnce guard;
+  if (interrupted()) return stopped();
+  Result<MeasuredBoundary> made = measure_boundary(*mesh_, analysis_.spheres, record_.grid.voxel_size, options_,
+                                                   shared_.progress, record_.host_times);
+  shared_.progress.clear();
+  if (!made) return made.error();
+  boundary_ = std::move(made).value();
+  record_.boundary = boundary_.record;
+  return {};
+}
+
 /// Files are made in memory: until they are written a signal may end the program. These steps do not test for one.
 Status MeshRun::make_files() {
   const EndAtOnce guard;
@@ -176,6 +191,7 @@ Status MeshRun::make_files() {
   if (Status status = measure_fat(); !status) return status;
   encode_volumes();
   if (Status status = encode(); !status) return status;
+  if (Status status = encode_boundary(); !status) return status;
   if (Status status = check(); !status) return status;
   if (Status status = draw(); !status) return status;
   make_page();
@@ -183,6 +199,7 @@ Status MeshRun::make_files() {
   encode_report();
   mesh_.reset();
   analysis_ = Analysis();
+  boundary_ = MeasuredBoundary();
   return {};
 }
 
@@ -233,6 +250,8 @@ Status MeshRun::encode() {
   return {};
 }
 
+Status MeshRun::encode_boundary() { return encode_boundary_files(*mesh_, boundary_, options_, files_); }
+
 /// The check reads the numbers as written, back from the bytes of the file. The other formats are made from the same
 /// numbers as a PLY, so their points are checked as that PLY.
 Status MeshRun::check() {
@@ -259,13 +278,22 @@ Status MeshRun::draw() {
   if (options_.picture.empty()) return {};
   shared_.progress.update("picture", 0);
   Stopwatch stopwatch;
+  if (options_.look.show == PictureShow::kBoundary) {
+    const Picture drawn = draw_boundary(boundary_.surface(*mesh_), boundary_.fields, boundary_colour_of(options_),
+                                        options_.strokes, options_.look);
+    return add_picture(drawn, "the CPU", stopwatch);
+  }
   PictureOptions look = options_.look;
   look.least_angle = options_.extraction.object_angle;
   DrawnPicture drawn = draw_picture(mesh_->prepared().mesh, analysis_.spheres, record_.grid.voxel_size, look,
                                     record_.device ? &*record_.device : nullptr);
-  Result<std::string> png = encode_png(drawn.picture);
+  return add_picture(drawn.picture, std::move(drawn.drawn_by), stopwatch);
+}
+
+Status MeshRun::add_picture(const Picture& picture, std::string drawn_by, Stopwatch& stopwatch) {
+  Result<std::string> png = encode_png(picture);
   if (!png) return png.error();
-  record_.picture_drawn_by = std::move(drawn.drawn_by);
+  record_.picture_drawn_by = std::move(drawn_by);
   files_.push_back({options_.picture, std::move(png).value()});
   record_.host_times.push_back({"picture", stopwatch.lap()});
   return {};
@@ -275,8 +303,9 @@ void MeshRun::make_page() {
   if (options_.html.empty()) return;
   shared_.progress.update("page", 0);
   Stopwatch stopwatch;
+  const Mesh& mesh = boundary_.surface(*mesh_);
   files_.push_back(
-      {options_.html, encode_page(mesh_->prepared().mesh, analysis_.spheres, record_, options_.look.view.up)});
+      {options_.html, encode_page(mesh, analysis_.spheres, record_, options_.look.view.up, boundary_.fields)});
   record_.host_times.push_back({"page", stopwatch.lap()});
 }
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/stopwatch.h"
+#include "cli/extract/boundary_run.h"
 #include "cli/options/options.h"
 #include "cli/shared/shared_of_run.h"
 #include "medial_vk/analysis.h"
@@ -13,6 +15,7 @@
 #include "output/atomic_files/atomic_file.h"
 #include "output/extraction_report/run_record.h"
 #include "output/medial_ply/medial_file.h"
+#include "output/picture/panels/image.h"
 
 namespace medial_vk::cli {
 
@@ -29,6 +32,8 @@ class MeshRun {
   /// For people, before the search.
   std::string opening_line() const;
   Status analyse_mesh();
+  /// Thickness and curvature, if an output needs them. The first signal ends the program at once.
+  Status measure();
   /// Encodes all files; with --check it also tests them. Then only the results are kept, and not the mesh.
   Status make_files();
 
@@ -40,11 +45,13 @@ class MeshRun {
   bool reports_index() const;
   void describe();
   Status measure_fat();
+  Status encode_boundary();
   void encode_volumes();
   void encode_mesh();
   Status encode();
   Status check();
   Status draw();
+  Status add_picture(const Picture& picture, std::string drawn_by, Stopwatch& stopwatch);
   void make_page();
   void encode_report();
 
@@ -52,6 +59,7 @@ class MeshRun {
   SharedOfRun& shared_;
   std::optional<IndexedMesh> mesh_;
   Analysis analysis_;
+  MeasuredBoundary boundary_;
   MedialHeader header_;
   std::vector<OutputFile> files_;
   double index_seconds_ = 0;

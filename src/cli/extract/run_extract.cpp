@@ -96,6 +96,7 @@ class ExtractionRun {
     if (Status status = run.take_device(); !status) return status;
     if (!options_.quiet) print_message(run.opening_line());
     if (Status status = run.analyse_mesh(); !status) return status;
+    if (Status status = run.measure(); !status) return status;
     return run.make_files();
   }
 

@@ -91,6 +91,26 @@ std::string describe_removal(const SheetRemoval& removal) {
                      grouped(removal.kept.size() + removal.sheets.size()), 100 * left);
 }
 
+std::string describe_thickness(const ThicknessRecord& record) {
+  std::string text = fmt::format("median {:.4g} to {:.4g} by area", record.median.lower, record.median.upper);
+  if (record.least) {
+    const Point& at = record.least_at;
+    text += fmt::format("; least met in a wall {:.4g} to {:.4g} at {:.4g}, {:.4g}, {:.4g}", record.least->lower,
+                        record.least->upper, at[0], at[1], at[2]);
+  }
+  const double points = static_cast<double>(std::max<std::size_t>(record.intervals.size(), 1));
+  return text + fmt::format("; wider than {:g} % at {:.3g} % of the area; delta {:.3g}", 100 * kWideInterval,
+                            100 * static_cast<double>(record.wide) / points, record.delta);
+}
+
+std::string describe_curvature(const CurvatureRecord& record) {
+  const auto range = [](const std::optional<CurvatureRecord::Range>& of) {
+    return of ? fmt::format("{:.3g} to {:.3g}", of->least, of->greatest) : std::string("unknown");
+  };
+  return fmt::format("kappa 1 {}, kappa 2 {}; unknown at {:.3g} % of the area", range(record.kappa_1),
+                     range(record.kappa_2), 100 * record.unknown_share);
+}
+
 /// Both sides of the comparison, which shows whether the topology was kept.
 std::string describe_medial_mesh(const RunRecord& record) {
   std::string text = fmt::format("{}, Euler characteristic {}", describe(record.medial_mesh->betti),
@@ -138,6 +158,8 @@ std::string summary(const RunRecord& record, std::span<const OutputFile> files) 
   if (record.fatness && record.points > 0) text += labelled("fat", describe_fatness(*record.fatness));
   if (record.removal) text += labelled("kept", describe_removal(*record.removal));
   if (record.medial_mesh) text += labelled("mesh", describe_medial_mesh(record));
+  if (record.boundary.thickness) text += labelled("thickness", describe_thickness(*record.boundary.thickness));
+  if (record.boundary.curvature) text += labelled("curvature", describe_curvature(*record.boundary.curvature));
   text += labelled("radius", range_text(record.radii));
   text += labelled("time", describe_times(record.host_times));
   return text + written_text(files);

@@ -48,8 +48,12 @@ Output:
                         and fast, but some programs do not know it
       --picture FILE    a .png of the mesh with its medial points, and of it:
       --show WHAT       points: in the mesh as glass (default), balls: their
-                        union, both: side by side
-      --colour BY       angle: the object angle (default), radius, sheet
+                        union, both: side by side, boundary: the mesh itself
+      --colour BY       of points: angle, the object angle (default), radius,
+                        sheet; of the boundary, also in --boundary FILE.glb:
+                        thickness (default), kappa1, kappa2, shape
+      --strokes         lines along the principal directions, with --show
+                        boundary: long ones along that of kappa 1
       --view FROM       front, back, left, right, top, bottom, iso or x,y,z, the
                         direction towards the viewer (default: from the right,
                         above and the front, 0.544,0.352,0.762 if y is up)
@@ -64,6 +68,23 @@ Output:
                         the least significant first, and so that topology stays
       --ball-volumes FILE  .csv: what each ball adds to the union's volume
       --report FILE     everything about the run as JSON; "-": standard output
+
+What is measured on the boundary, for summary, report, page and these files:
+      --thickness       how thick the solid is, by area, as intervals
+      --curvature       principal curvatures from the medial points; takes about
+                        a millisecond of a core for each
+      --boundary FILE   the mesh as .ply, .glb or .vtp (ParaView) with what is
+                        measured at its vertices: both, unless --thickness or
+                        --curvature names one
+      --boundary-edge E  with edges cut until none is longer than E times the
+                        longest side, 0.001 to 1 (default: as they are), so that
+                        large triangles have values inside
+      --thickness-histogram FILE  .svg or .csv: thickness by area
+      --thickness-delta D  balls count at a point if they come within D times
+                        the longest side, below 0.1 (default 0.0005)
+      --thickness-width W  the search for a point ends when its interval is no
+                        wider than W times its lower end, 1e-6 to 1 (default
+                        0.01)
 
 What is looked for (lengths are fractions, so units do not matter):
       --resolution N    voxels along the longest side of the bounding box,

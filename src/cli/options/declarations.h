@@ -65,8 +65,9 @@ class Declarations {
   void up(const char* name, UpAxis& target) { parsed(name, parse_up, target); }
   void size(const char* name, std::array<std::uint32_t, 2>& target) { parsed(name, parse_size, target); }
 
-  template <class T>
-  void choice(const char* name, std::vector<std::pair<std::string, T>> choices, T& target) {
+  /// `Target` is T or std::optional<T>.
+  template <class T, class Target>
+  void choice(const char* name, std::vector<std::pair<std::string, T>> choices, Target& target) {
     const auto parse = [choices](const std::string& text) -> Result<T> {
       std::string known;
       for (const auto& [word, value] : choices) {

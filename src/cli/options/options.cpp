@@ -9,8 +9,10 @@
 #include <utility>
 
 #include "cli/options/declarations.h"
+#include "cli/options/measures.h"
 #include "cli/options/output_names.h"
 #include "cli/options/parse_number.h"
+#include "common/file_extension.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -32,17 +34,33 @@ void declare(CLI::App& app, Options& options) {
   add.view("--view", options.view);
   add.up("--up", options.look.view.up);
   add.size("--size", options.look.size);
-  add.choice<PictureShow>(
-      "--show", {{"points", PictureShow::kPoints}, {"balls", PictureShow::kBalls}, {"both", PictureShow::kBoth}},
-      options.look.show);
-  add.choice<PictureColour>(
-      "--colour",
-      {{"angle", PictureColour::kAngle}, {"radius", PictureColour::kRadius}, {"sheet", PictureColour::kSheet}},
-      options.look.colour);
+  add.choice<PictureShow>("--show",
+                          {{"points", PictureShow::kPoints},
+                           {"balls", PictureShow::kBalls},
+                           {"both", PictureShow::kBoth},
+                           {"boundary", PictureShow::kBoundary}},
+                          options.look.show);
+  add.choice<ColourBy>("--colour",
+                       {{"angle", ColourBy::kAngle},
+                        {"radius", ColourBy::kRadius},
+                        {"sheet", ColourBy::kSheet},
+                        {"thickness", ColourBy::kThickness},
+                        {"kappa1", ColourBy::kKappa1},
+                        {"kappa2", ColourBy::kKappa2},
+                        {"shape", ColourBy::kShape}},
+                       options.colour);
+  add.flag("--strokes", options.strokes);
   add.text("--html", "file", options.html);
   add.text("--medial-mesh", "file", options.medial_mesh);
   add.text("--sheet-curve", "file", options.sheet_curve);
   add.text("--ball-volumes", "file", options.ball_volumes);
+  add.text("--boundary", "file", options.boundary);
+  add.real("--boundary-edge", {0.001, 1}, " of the longest side", options.boundary_edge);
+  add.text("--thickness-histogram", "file", options.thickness_histogram);
+  add.flag("--thickness", options.thickness);
+  add.real("--thickness-delta", {0, 0.1, false}, " of the longest side", options.thickness_delta);
+  add.real("--thickness-width", {1e-6, 1}, " of the lower end", options.thickness_width);
+  add.flag("--curvature", options.curvature);
 
   add.whole("--resolution", 1, 4096, " voxels", extraction.resolution);
   add.real("--object-angle", {0, std::numbers::pi / 2, false}, " radians", extraction.object_angle);
@@ -98,6 +116,61 @@ Status check_ball_options(const Options& options) {
   return {};
 }
 
+/// --colour is about medial points or about the boundary, each in the pictures and files that show it.
+Status take_colour(Options& options) {
+  if (options.strokes && options.look.show != PictureShow::kBoundary) {
+    return usage_error("--strokes are on the boundary: use it with --show boundary");
+  }
+  if (!options.colour) return {};
+  const bool draws_boundary = !options.picture.empty() && options.look.show == PictureShow::kBoundary;
+  const bool draws_points = !options.picture.empty() && !draws_boundary;
+  const ColourBy by = *options.colour;
+  if (by < ColourBy::kThickness) {
+    if (!draws_points) {
+      return usage_error(
+          "--colour angle, radius and sheet are about medial points: use them with --picture FILE.png, and not with "
+          "--show boundary");
+    }
+    options.look.colour = static_cast<PictureColour>(by);
+    return {};
+  }
+  if (!draws_boundary && file_extension(options.boundary) != ".glb") {
+    return usage_error(
+        "--colour thickness, kappa1, kappa2 and shape are about the boundary: use them with --picture FILE.png --show "
+        "boundary, or with --boundary FILE.glb");
+  }
+  options.boundary_colour = static_cast<BoundaryColour>(static_cast<int>(by) - static_cast<int>(ColourBy::kThickness));
+  return {};
+}
+
+/// Options about what is measured on the boundary.
+Status check_boundary_options(const Options& options) {
+  if (!may_end_in(options.boundary, ".ply") && !may_end_in(options.boundary, ".glb") &&
+      !may_end_in(options.boundary, ".vtp")) {
+    return usage_error(fmt::format("--boundary: '{}' ends in none of .ply, .glb and .vtp", options.boundary));
+  }
+  if (!may_end_in(options.thickness_histogram, ".svg") && !may_end_in(options.thickness_histogram, ".csv")) {
+    return usage_error(
+        fmt::format("--thickness-histogram: '{}' ends in neither .svg nor .csv", options.thickness_histogram));
+  }
+  if (options.boundary_edge > 0 && !measures_of(options).at_vertices()) {
+    return usage_error(
+        "--boundary-edge is about vertices of the boundary: use it with --boundary, --show boundary or --curvature");
+  }
+  const Options usual;
+  const std::pair<const char*, bool> given[] = {
+      {"--thickness-delta", options.thickness_delta != usual.thickness_delta},
+      {"--thickness-width", options.thickness_width != usual.thickness_width}};
+  for (const auto& [name, is_given] : given) {
+    if (is_given && !measures_of(options).thickness) {
+      return usage_error(fmt::format(
+          "{} is about thickness: use it with --thickness, --thickness-histogram, --boundary or --show boundary",
+          name));
+    }
+  }
+  return {};
+}
+
 /// Options about the picture need a picture.
 Status check_picture_options(const Options& options) {
   const PictureOptions usual;
@@ -105,7 +178,7 @@ Status check_picture_options(const Options& options) {
   const std::pair<const char*, bool> given[] = {{"--view", options.view != ViewChoice()},
                                                 {"--size", look.size != usual.size},
                                                 {"--show", look.show != usual.show},
-                                                {"--colour", look.colour != usual.colour}};
+                                                {"--strokes", options.strokes}};
   for (const auto& [name, is_given] : given) {
     if (is_given && options.picture.empty()) {
       return usage_error(fmt::format("{} is about the picture: use it with --picture FILE.png", name));
@@ -130,6 +203,8 @@ Status complete_files(Options& options) {
     return usage_error(fmt::format("--picture: '{}' does not end in .png", options.picture));
   }
   if (Status status = check_picture_options(options); !status) return status;
+  if (Status status = take_colour(options); !status) return status;
+  if (Status status = check_boundary_options(options); !status) return status;
   options.look.view = view_of(options.view, options.look.view.up);
   if (!may_end_in(options.html, ".html")) {
     return usage_error(fmt::format("--html: '{}' does not end in .html", options.html));
@@ -194,13 +269,16 @@ std::vector<NamedOutput> outputs_of(const Options& options) {
           {"--html", &options.html},
           {"--medial-mesh", &options.medial_mesh},
           {"--sheet-curve", &options.sheet_curve},
-          {"--ball-volumes", &options.ball_volumes}};
+          {"--ball-volumes", &options.ball_volumes},
+          {"--boundary", &options.boundary},
+          {"--thickness-histogram", &options.thickness_histogram}};
 }
 
 Options options_of_part(const Options& options, const std::string& name) {
   Options of_part = options;
-  for (std::string* file : {&of_part.output, &of_part.report, &of_part.picture, &of_part.html, &of_part.medial_mesh,
-                            &of_part.sheet_curve, &of_part.ball_volumes}) {
+  for (std::string* file :
+       {&of_part.output, &of_part.report, &of_part.picture, &of_part.html, &of_part.medial_mesh, &of_part.sheet_curve,
+        &of_part.ball_volumes, &of_part.boundary, &of_part.thickness_histogram}) {
     if (!file->empty()) *file = with_part(*file, name);
   }
   return of_part;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "boundary_fields/boundary_fields.h"
 #include "cli/options/output_names.h"
 #include "cli/options/parse_picture.h"
 #include "common/backend.h"
@@ -17,6 +18,9 @@
 #include "output/picture/panels/options.h"
 
 namespace medial_vk::cli {
+
+/// The words of --colour: of medial points, then of the boundary.
+enum class ColourBy { kAngle, kRadius, kSheet, kThickness, kKappa1, kKappa2, kShape };
 
 enum class Action { kExtract, kListDevices, kHelp, kVersion };
 
@@ -44,14 +48,26 @@ struct Options {
   std::string device;
   unsigned threads = 0;  ///< 0: all.
 
-  std::string report;        ///< Empty: none; "-": standard output.
-  std::string picture;       ///< As `report`.
-  std::string html;          ///< As `report`.
-  std::string medial_mesh;   ///< As `report`.
-  std::string sheet_curve;   ///< As `report`.
-  std::string ball_volumes;  ///< As `report`.
-  PictureOptions look;       ///< Of the picture; the page shares `up` of its view.
-  ViewChoice view;           ///< As given; `look` holds the resulting view.
+  std::string report;               ///< Empty: none; "-": standard output.
+  std::string picture;              ///< As `report`.
+  std::string html;                 ///< As `report`.
+  std::string medial_mesh;          ///< As `report`.
+  std::string sheet_curve;          ///< As `report`.
+  std::string ball_volumes;         ///< As `report`.
+  std::string boundary;             ///< As `report`.
+  std::string thickness_histogram;  ///< As `report`.
+
+  bool thickness = false;           ///< Measured even if no other output needs it.
+  bool curvature = false;           ///< As `thickness`.
+  double boundary_edge = 0;         ///< Fraction of the longest side that edges of the boundary may have; 0: any.
+  double thickness_delta = 0.0005;  ///< Fraction of the longest side.
+  double thickness_width = 0.01;    ///< Of an interval, relative to its lower end.
+
+  std::optional<ColourBy> colour;  ///< As given; `look` and `boundary_colour` hold the resulting colours.
+  std::optional<BoundaryColour> boundary_colour;  ///< None: thickness if it is measured, else the shape.
+  bool strokes = false;                           ///< Principal directions in the picture of the boundary.
+  PictureOptions look;                            ///< Of the picture; the page shares `up` of its view.
+  ViewChoice view;                                ///< As given; `look` holds the resulting view.
   bool check = false;
 
   bool quiet = false;

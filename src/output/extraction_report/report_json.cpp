@@ -243,6 +243,42 @@ Json fatness_json(const RunRecord& record) {
   return {{"proved", proved}, {"angles", angles}};
 }
 
+Json thickness_json(const std::optional<ThicknessRecord>& record) {
+  if (!record) return nullptr;
+  Json least = nullptr;
+  if (record->least) {
+    least = {{"lower", record->least->lower}, {"upper", record->least->upper}, {"at", record->least_at}};
+  }
+  const double points = static_cast<double>(std::max<std::size_t>(record->intervals.size(), 1));
+  return {{"delta", record->delta},
+          {"width", record->width},
+          {"points", record->intervals.size()},
+          {"median", {{"lower", record->median.lower}, {"upper", record->median.upper}}},
+          {"least_in_a_wall", least},
+          {"wall_angle", kWallAngle},
+          {"wall_deltas", kWallDeltas},
+          {"greatest", record->greatest},
+          {"wide_interval", kWideInterval},
+          {"wide_share", static_cast<double>(record->wide) / points}};
+}
+
+Json curvature_json(const std::optional<CurvatureRecord>& record) {
+  if (!record) return nullptr;
+  const auto range = [](const std::optional<CurvatureRecord::Range>& of) -> Json {
+    if (!of) return nullptr;
+    return {{"least", of->least}, {"greatest", of->greatest}};
+  };
+  return {{"kappa_1", range(record->kappa_1)},
+          {"kappa_2", range(record->kappa_2)},
+          {"unknown_share", record->unknown_share},
+          {"median_error", record->median_error}};
+}
+
+Json boundary_json(const BoundaryRecord& record) {
+  if (!record.thickness && !record.curvature) return nullptr;
+  return {{"thickness", thickness_json(record.thickness)}, {"curvature", curvature_json(record.curvature)}};
+}
+
 Json check_json(const std::optional<CheckReport>& check) {
   if (!check) return nullptr;
   Json lines = Json::array();
@@ -307,6 +343,7 @@ std::string report_json(const RunRecord& record) {
       {"orders", orders_json(record)},
       {"grouping", grouping_json(record.sheet_options, record.sheets)},
       {"medial_mesh", medial_mesh_json(record)},
+      {"boundary", boundary_json(record.boundary)},
       {"seconds", {{"host", times_json(record.host_times)}, {"device", times_json(record.device_times)}}},
       {"device", device_json(record.device)},
       {"certificate", check_json(record.check)}};

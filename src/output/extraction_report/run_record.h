@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "boundary_fields/summaries.h"
 #include "check_reports/check_report.h"
 #include "common/backend.h"
 #include "medial_vk/certify.h"
@@ -79,6 +80,8 @@ struct RunRecord {
   bool keep_topology = false;
   std::optional<MedialTopology> medial_mesh;         ///< Of --medial-mesh.
   std::optional<std::int64_t> euler_characteristic;  ///< Of the solid, if its mesh is closed.
+
+  BoundaryRecord boundary;  ///< What was measured on the boundary.
 
   std::vector<StageTime> host_times;    ///< In the order of the run, by wall-clock time.
   std::vector<StageTime> device_times;  ///< By timestamps of the device; part of the host's "extract".

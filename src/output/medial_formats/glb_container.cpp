@@ -75,6 +75,13 @@ std::size_t GlbContainer::add_indices(std::span<const std::uint32_t> indices, Gl
                       {{"componentType", component}, {"count", indices.size()}, {"type", "SCALAR"}});
 }
 
+std::size_t GlbContainer::add_numbers(std::span<const float> numbers) {
+  const std::size_t begin = buffer_.size();
+  for (const float number : numbers) append_little_endian(buffer_, number);
+  return add_accessor(begin, GltfTarget::kVertices,
+                      {{"componentType", GltfComponent::kFloat}, {"count", numbers.size()}, {"type", "SCALAR"}});
+}
+
 std::size_t GlbContainer::add_times(std::span<const float> times) {
   const std::size_t begin = buffer_.size();
   for (const float time : times) append_little_endian(buffer_, time);

@@ -24,9 +24,11 @@ class GlbContainer {
   GltfJson document;
 
   /// Three floats each. With `bounds` the least and the greatest coordinates are recorded too, as positions require.
-  /// This function and the next three return the index of the accessor.
+  /// This function and the next four return the index of the accessor.
   std::size_t add_vectors(std::span<const std::array<float, 3>> vectors, GltfTarget target, bool bounds);
   std::size_t add_indices(std::span<const std::uint32_t> indices, GltfComponent component);
+  /// Attributes of one number for each vertex.
+  std::size_t add_numbers(std::span<const float> numbers);
   /// Seconds, ascending, as the input of animations.
   std::size_t add_times(std::span<const float> times);
   /// Components are fractions of 65535.

@@ -9,6 +9,7 @@
 
 #include "output/extraction_report/report_json.h"
 #include "output/page/embedded_page.h"
+#include "output/page/page_boundary.h"
 #include "output/page/page_parts.h"
 
 namespace medial_vk {
@@ -75,7 +76,7 @@ void write_spheres(std::string& page, std::span<const MedialSphere> spheres, con
 }
 
 std::string scene_json(const Mesh& mesh, std::span<const MedialSphere> spheres, const RunRecord& record,
-                       const Placement& placement, UpAxis up) {
+                       const Placement& placement, UpAxis up, const BoundaryFields& boundary) {
   const Json json = {{"origin", placement.origin},
                      {"scale", placement.scale},
                      {"lower", record.mesh.lower},
@@ -84,7 +85,8 @@ std::string scene_json(const Mesh& mesh, std::span<const MedialSphere> spheres, 
                      {"vertices", mesh.vertices.size()},
                      {"triangles", mesh.triangles.size()},
                      {"points", spheres.size()},
-                     {"up", axis_name(up)}};
+                     {"up", axis_name(up)},
+                     {"boundary", page::boundary_json(boundary, record.longest_side)}};
   return json.dump();
 }
 
@@ -112,7 +114,8 @@ Status check_page_available() {
       "(Debian: apt install nodejs npm), configure and build again (docs/viewer.md)"};
 }
 
-std::string encode_page(const Mesh& mesh, std::span<const MedialSphere> spheres, const RunRecord& record, UpAxis up) {
+std::string encode_page(const Mesh& mesh, std::span<const MedialSphere> spheres, const RunRecord& record, UpAxis up,
+                        const BoundaryFields& boundary) {
   const page::Template page = page::split(page::embedded_page());
   const Placement placement = place(record);
 
@@ -121,9 +124,10 @@ std::string encode_page(const Mesh& mesh, std::span<const MedialSphere> spheres,
   out.reserve(page.size() + 65536 + spheres.size() * 62 + (mesh.vertices.size() + mesh.triangles.size()) * 16);
   out.append(page.before_title).append(title_of(record)).append(page.before_data);
   page::write_json(out, "report", report_without_times(record));
-  page::write_json(out, "scene", scene_json(mesh, spheres, record, placement, up));
+  page::write_json(out, "scene", scene_json(mesh, spheres, record, placement, up, boundary));
   write_mesh(out, mesh, placement);
   write_spheres(out, spheres, placement);
+  page::write_boundary(out, boundary, record.longest_side);
   out.append(page.after_data);
   return out;
 }

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "boundary_fields/boundary_fields.h"
 #include "common/up_axis.h"
 #include "medial_vk/medial_spheres.h"
 #include "medial_vk/mesh.h"
@@ -17,9 +18,9 @@ namespace medial_vk {
 Status check_page_available();
 
 /// The mesh, the spheres and the report of a run as one file (docs/viewer.md). The report's times are left out, so that
-/// the same run gives the same bytes. `up` is the initial axis; the page can change it. Call only if
-/// check_page_available() is ok.
+/// the same run gives the same bytes. `up` is the initial axis; the page can change it. `boundary`: at the vertices of
+/// the mesh, if anything was measured. Call only if check_page_available() is ok.
 std::string encode_page(const Mesh& mesh, std::span<const MedialSphere> spheres, const RunRecord& record,
-                        UpAxis up = UpAxis::kY);
+                        UpAxis up = UpAxis::kY, const BoundaryFields& boundary = {});
 
 }  // namespace medial_vk

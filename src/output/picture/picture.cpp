@@ -11,21 +11,12 @@ namespace {
 
 using picture::Panel;
 
-Picture blank(const PictureOptions& options) {
-  Picture out;
-  const std::uint32_t usual_width = options.show == PictureShow::kBoth ? 1800 : 1200;
-  out.width = options.size[0] != 0 ? options.size[0] : usual_width;
-  out.height = options.size[1] != 0 ? options.size[1] : 900;
-  out.rgb.assign(std::size_t{out.width} * out.height * 3, 255);
-  return out;
-}
-
 /// Error: kNoDevice, with the reason why it cannot draw.
 Result<DrawnPicture> draw_on_device(const picture::Scene& scene, const PictureOptions& options,
                                     const DeviceDescription& device) {
   Result<picture::DevicePainter> painter = picture::DevicePainter::open(device);
   if (!painter) return painter.error();
-  Picture out = blank(options);
+  Picture out = picture::blank(options);
   if (Status drawn = painter.value().draw(scene, picture::panels_of(options.show, out.width), options.view, out);
       !drawn) {
     return drawn.error();
@@ -36,7 +27,7 @@ Result<DrawnPicture> draw_on_device(const picture::Scene& scene, const PictureOp
 }
 
 Picture draw_on_cpu(const picture::Scene& scene, const PictureOptions& options) {
-  Picture out = blank(options);
+  Picture out = picture::blank(options);
   for (const Panel& panel : picture::panels_of(options.show, out.width)) {
     draw_panel(scene, panel, options.view, out);
   }

@@ -1,9 +1,17 @@
-// The surface as glass. BACK: the far wall, seen from inside. PLAIN: one colour (creases), or depth alone.
+// The surface as glass. BACK: the far wall, seen from inside. PLAIN: one colour (creases), or depth alone. PAINTED:
+// colours of corners.
 in vec3 place;
 uniform vec3 glass, crease;
 uniform float density;  // 0: invisible, 1: glass, large: opaque.
 #ifndef PLAIN
 in vec3 viewNormal;
+#endif
+#ifdef PAINTED
+in vec3 paintColour;
+uniform float painted;
+vec3 surface() { return mix(glass, paintColour, painted); }
+#else
+vec3 surface() { return glass; }
 #endif
 out vec4 pixel;
 
@@ -22,11 +30,11 @@ void main() {
   float grazing = 1.0 - min(dot(normal, eye), 1.0);
 #ifdef BACK
   float cover = 0.12 + 0.26 * grazing;
-  vec3 colour = glass * (0.62 + 0.38 * max(dot(normal, kKeyLight), 0.0));
+  vec3 colour = surface() * (0.62 + 0.38 * max(dot(normal, kKeyLight), 0.0));
 #else
   // Clear where it faces the viewer, denser towards the outline (Schlick's curve), with a highlight.
   float cover = 0.08 + 0.62 * grazing * grazing * grazing;
-  vec3 colour = min(glass * (0.70 + 0.42 * max(dot(normal, kKeyLight), 0.0)), 1.0);
+  vec3 colour = min(surface() * (0.70 + 0.42 * max(dot(normal, kKeyLight), 0.0)), 1.0);
   float highlight = 0.35 * pow(max(dot(normal, normalize(kKeyLight + vec3(0, 0, 1))), 0.0), 48.0);
   colour = mix(colour, vec3(1.0), highlight);
   cover = mix(cover, 1.0, highlight);

@@ -42,9 +42,9 @@ RunRecord some_record() {
 TEST(ReportJson, HoldsEveryDocumentedKey) {
   const json report = json::parse(report_json(some_record()));
   for (const char* key :
-       {"format", "program", "version",  "input",           "output",  "parameters", "mesh",       "grid",
-        "voxels", "levels",  "queries",  "narrowing_steps", "retries", "points",     "per_point",  "sheets",
-        "orders", "fatness", "grouping", "medial_mesh",     "seconds", "device",     "certificate"}) {
+       {"format", "program", "version",  "input",           "output",  "parameters", "mesh",        "grid",
+        "voxels", "levels",  "queries",  "narrowing_steps", "retries", "points",     "per_point",   "sheets",
+        "orders", "fatness", "grouping", "medial_mesh",     "seconds", "device",     "certificate", "boundary"}) {
     EXPECT_TRUE(report.contains(key)) << key;
   }
   for (const char* key : {"mode", "backend", "resolution", "object_angle", "radius", "epsilon", "extra_levels",
@@ -280,6 +280,34 @@ TEST(ReportSummary, SaysWhatMatters) {
     EXPECT_THAT(text, HasSubstr(part));
   }
   EXPECT_THAT(cli::details(record), HasSubstr("dismiss cells"));
+}
+
+TEST(ReportJson, HoldsWhatWasMeasuredOnTheBoundary) {
+  RunRecord record = some_record();
+  EXPECT_TRUE(json::parse(report_json(record))["boundary"].is_null());
+  ThicknessRecord thickness;
+  thickness.delta = 0.001;
+  thickness.intervals = {{1, 1.01}, {2, 3}, {2, 2.01}, {2, 2.01}};
+  thickness.median = {2, 2.01};
+  thickness.wide = 1;
+  record.boundary.thickness = thickness;
+  json boundary = json::parse(report_json(record))["boundary"];
+  EXPECT_TRUE(boundary["curvature"].is_null());
+  EXPECT_TRUE(boundary["thickness"]["least_in_a_wall"].is_null());
+  EXPECT_EQ(boundary["thickness"]["wide_share"], 0.25);
+  EXPECT_EQ(boundary["thickness"]["points"], 4);
+  record.boundary.thickness->least = Bounds{1, 1.01};
+  record.boundary.thickness->least_at = {3, 4, 5};
+  record.boundary.curvature = CurvatureRecord{{{-1.0, 2.0}}, {}, 0.125, 0.5};
+  boundary = json::parse(report_json(record))["boundary"];
+  EXPECT_EQ(boundary["thickness"]["least_in_a_wall"]["at"], (std::vector<double>{3, 4, 5}));
+  EXPECT_EQ(boundary["curvature"]["kappa_1"]["greatest"], 2.0);
+  EXPECT_TRUE(boundary["curvature"]["kappa_2"].is_null());
+  EXPECT_EQ(boundary["curvature"]["unknown_share"], 0.125);
+  const std::string text = cli::summary(record, {});
+  EXPECT_THAT(text, HasSubstr("median 2 to 2.01 by area; least met in a wall 1 to 1.01 at 3, 4, 5"));
+  EXPECT_THAT(text, HasSubstr("wider than 10 % at 25 % of the area"));
+  EXPECT_THAT(text, HasSubstr("kappa 1 -1 to 2, kappa 2 unknown; unknown at 12.5 % of the area"));
 }
 
 }  // namespace

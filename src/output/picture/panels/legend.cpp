@@ -88,8 +88,9 @@ void draw_legend(const Scene& scene, Picture& picture, LegendCorner corner) {
   Pen pen(picture);
   const bool has_bar = scene.legend.swatches.empty();
   const std::uint32_t margin = 16 * pen.scale();
-  const std::uint32_t width = std::max({has_bar ? 130 * pen.scale() : swatches_width(scene, pen),
-                                        pen.width_of(scene.legend.title), pen.width_of(scene.legend.note)});
+  const std::uint32_t without_note =
+      std::max(has_bar ? 130 * pen.scale() : swatches_width(scene, pen), pen.width_of(scene.legend.title));
+  const std::uint32_t width = std::max(without_note, pen.width_of(scene.legend.note));
   const std::uint32_t lines = scene.legend.note.empty() ? 2 : 3;
   const std::uint32_t height = lines * pen.line() + 10 * pen.scale();
   if (picture.width < width + 2 * margin || picture.height < height + 2 * margin) return;  // no room
@@ -97,7 +98,8 @@ void draw_legend(const Scene& scene, Picture& picture, LegendCorner corner) {
   const std::uint32_t top = picture.height - margin / 2 - height;
   pen.write(left, top, scene.legend.title);
   if (has_bar) {
-    draw_bar(scene, pen, left, top + pen.line(), width);
+    draw_bar(scene, pen, left, top + pen.line(), without_note);
+    pen.write(left, top + 2 * pen.line() + 10 * pen.scale(), scene.legend.note);
   } else {
     draw_swatches(scene, pen, left, top + pen.line());
     pen.write(left, top + 2 * pen.line(), scene.legend.note);

@@ -9,9 +9,10 @@
 namespace medial_vk {
 
 enum class PictureShow {
-  kPoints,  ///< The mesh as glass, with the medial points in it as discs.
-  kBalls,   ///< The union of the balls.
-  kBoth,    ///< Both, side by side.
+  kPoints,    ///< The mesh as glass, with the medial points in it as discs.
+  kBalls,     ///< The union of the balls.
+  kBoth,      ///< Both, side by side.
+  kBoundary,  ///< The mesh, opaque, in the colours of what was measured on it (output/picture/boundary_picture.h).
 };
 
 enum class PictureColour { kAngle, kRadius, kSheet };

@@ -49,7 +49,11 @@ struct Layers {
 class Composer {
  public:
   Composer(const Scene& scene, const Panel& panel, const Camera& camera, const Layers& layers)
-      : balls_(panel.balls || panel.in_glass), in_glass_(panel.in_glass), camera_(camera), layers_(layers) {
+      : balls_(panel.balls || panel.in_glass || panel.painted),
+        in_glass_(panel.in_glass),
+        painted_(panel.painted),
+        camera_(camera),
+        layers_(layers) {
     for (const Vector3f& colour : scene.palette) palette_.push_back(to_light(colour));
   }
 
@@ -61,7 +65,7 @@ class Composer {
       colour = over_back_wall(colour, layers_.back.normal[pixel], layers_.back.tint[pixel]);
     if (layers_.marks.surface.nearness[pixel] > 0) colour = mark(x, y, pixel);
     // A disc reaches in front of the wall only by its own size, so the wall is drawn in front of it.
-    if (layers_.front.nearness[pixel] > 0)
+    if (!painted_ && layers_.front.nearness[pixel] > 0)
       colour = over_front_wall(colour, layers_.front.normal[pixel], layers_.front.tint[pixel]);
     return on_line(x, y) ? mix(colour, kInk, 0.60f) : colour;
   }
@@ -100,7 +104,7 @@ class Composer {
   /// distinguishes them, and paler farther away.
   Vector3f mark(std::uint32_t x, std::uint32_t y, std::size_t pixel) const {
     const Vector3f& normal = layers_.marks.surface.normal[pixel];
-    const Vector3f colour = palette_colour(layers_.marks.value[pixel]);
+    const Vector3f colour = painted_ ? layers_.marks.paint[pixel] : palette_colour(layers_.marks.value[pixel]);
     const float open = openness(x, y, pixel);
     const float sky = 0.50f + 0.14f * normal.y();
     const float rim = layers_.marks.rim[pixel];
@@ -174,7 +178,7 @@ class Composer {
            (y + kStep < wall.height && ends_before(std::size_t{kStep} * wall.width));
   }
 
-  bool balls_, in_glass_;
+  bool balls_, in_glass_, painted_;
   const Camera& camera_;
   const Layers& layers_;
   std::vector<Vector3f> palette_;
@@ -200,7 +204,10 @@ std::vector<Mark> balls_in(const std::vector<Mark>& balls, const Band& band) {
 /// The layers of a band.
 void draw_layers(const Scene& scene, const Panel& panel, const Camera& camera, const std::vector<Mark>& balls,
                  const Band& band, Layers& layers) {
-  if (panel.balls) {
+  if (panel.painted) {
+    draw_mesh(scene.mesh, camera, Keep::kNearest, layers.front);
+    draw_painted(scene.painted, camera, layers.marks);
+  } else if (panel.balls) {
     draw_balls(balls_in(balls, band), camera, kCpuSamples, layers.marks);
   } else {
     draw_mesh(scene.mesh, camera, Keep::kNearest, layers.front);
@@ -270,6 +277,15 @@ void draw_on_top(const Mark& mark, const Scene& scene, const Panel& panel, const
 }
 
 }  // namespace
+
+Picture blank(const PictureOptions& options) {
+  Picture out;
+  const std::uint32_t usual_width = options.show == PictureShow::kBoth ? 1800 : 1200;
+  out.width = options.size[0] != 0 ? options.size[0] : usual_width;
+  out.height = options.size[1] != 0 ? options.size[1] : 900;
+  out.rgb.assign(std::size_t{out.width} * out.height * 3, 255);
+  return out;
+}
 
 std::vector<Panel> panels_of(PictureShow show, std::uint32_t width) {
   if (show != PictureShow::kBoth) return {{0, width, show == PictureShow::kBalls, false}};

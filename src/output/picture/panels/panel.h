@@ -17,7 +17,11 @@ struct Panel {
   std::uint32_t width = 0;
   bool balls = false;     // Otherwise the mesh with the discs.
   bool in_glass = false;  // The mesh with balls, inside and outside of it, instead of discs. The CPU alone draws this.
+  bool painted = false;   // The painted surface alone. The CPU alone draws this.
 };
+
+/// A white picture of the size that the options choose.
+Picture blank(const PictureOptions& options);
 
 std::vector<Panel> panels_of(PictureShow show, std::uint32_t width);
 

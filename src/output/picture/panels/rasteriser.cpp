@@ -54,24 +54,47 @@ class ScreenTriangle {
   float inverse_area_ = 0;
 };
 
-void draw_triangle(const ScreenTriangle& triangle, const std::array<Vector3f, 3>& normals, Tint tint, Keep keep,
-                   SurfaceLayer& layer) {
-  const PixelRange columns = triangle.columns(layer.width);
-  const PixelRange rows = triangle.rows(layer.height);
+/// Calls `put(pixel, nearness, weights)` for the pixels of a triangle in a layer of this size.
+template <class Put>
+void for_pixels(const ScreenTriangle& triangle, std::uint32_t width, std::uint32_t height, const Put& put) {
+  const PixelRange columns = triangle.columns(width);
+  const PixelRange rows = triangle.rows(height);
   for (std::uint32_t y = rows.begin; y < rows.end; ++y) {
     for (std::uint32_t x = columns.begin; x < columns.end; ++x) {
       const Vector3f weights = triangle.weights(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
       if (weights.minCoeff() < 0) continue;
-      const float nearness = triangle.nearness(weights);
-      const std::size_t pixel = std::size_t{y} * layer.width + x;
-      float& held = layer.nearness[pixel];
-      const bool better = held == 0.0f || (keep == Keep::kNearest ? nearness > held : nearness < held);
-      if (!better) continue;
-      held = nearness;
-      layer.tint[pixel] = tint;
-      layer.normal[pixel] = (weights[0] * normals[0] + weights[1] * normals[1] + weights[2] * normals[2]).normalized();
+      put(std::size_t{y} * width + x, triangle.nearness(weights), weights);
     }
   }
+}
+
+Vector3f mean(const std::array<Vector3f, 3>& corners, const Vector3f& weights) {
+  return weights[0] * corners[0] + weights[1] * corners[1] + weights[2] * corners[2];
+}
+
+/// Three corners of a surface, from `first`, on the screen, and their normals there.
+struct SeenCorners {
+  SeenCorners(const Surface& mesh, std::size_t first, const Camera& camera) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      corners[i] = camera.project(mesh.positions[first + i]);
+      normals[i] = camera.turn(mesh.normals[first + i]);
+    }
+  }
+
+  std::array<ScreenPoint, 3> corners;
+  std::array<Vector3f, 3> normals;
+};
+
+void draw_triangle(const ScreenTriangle& triangle, const std::array<Vector3f, 3>& normals, Tint tint, Keep keep,
+                   SurfaceLayer& layer) {
+  for_pixels(triangle, layer.width, layer.height, [&](std::size_t pixel, float nearness, const Vector3f& weights) {
+    float& held = layer.nearness[pixel];
+    const bool better = held == 0.0f || (keep == Keep::kNearest ? nearness > held : nearness < held);
+    if (!better) return;
+    held = nearness;
+    layer.tint[pixel] = tint;
+    layer.normal[pixel] = mean(normals, weights).normalized();
+  });
 }
 
 /// A disc on the screen: an ellipse whose short axis lies along the tilt of its normal.
@@ -173,15 +196,28 @@ void MarkLayer::put(std::uint32_t x, std::uint32_t y, float nearness, const Vect
 
 void draw_mesh(const Surface& mesh, const Camera& camera, Keep keep, SurfaceLayer& layer) {
   for (std::size_t first = 0; first < mesh.positions.size(); first += 3) {
-    std::array<ScreenPoint, 3> corners;
-    std::array<Vector3f, 3> turned;
-    for (std::size_t i = 0; i < 3; ++i) {
-      corners[i] = camera.project(mesh.positions[first + i]);
-      turned[i] = camera.turn(mesh.normals[first + i]);
-    }
-    const ScreenTriangle triangle(corners);
+    const SeenCorners seen(mesh, first, camera);
+    const ScreenTriangle triangle(seen.corners);
     const Tint tint = mesh.tints.empty() ? Tint::kNone : mesh.tints[first / 3];
-    if (triangle.visible()) draw_triangle(triangle, turned, tint, keep, layer);
+    if (triangle.visible()) draw_triangle(triangle, seen.normals, tint, keep, layer);
+  }
+}
+
+void draw_painted(const Painted& painted, const Camera& camera, MarkLayer& layer) {
+  SurfaceLayer& surface = layer.surface;
+  layer.paint.assign(surface.nearness.size(), Vector3f::Zero());
+  for (std::size_t first = 0; first < painted.surface.positions.size(); first += 3) {
+    const SeenCorners seen(painted.surface, first, camera);
+    const ScreenTriangle triangle(seen.corners);
+    if (!triangle.visible()) continue;
+    const std::array<Vector3f, 3> light = {painted.light[first], painted.light[first + 1], painted.light[first + 2]};
+    for_pixels(triangle, surface.width, surface.height,
+               [&](std::size_t pixel, float nearness, const Vector3f& weights) {
+                 if (nearness <= surface.nearness[pixel]) return;
+                 surface.nearness[pixel] = nearness;
+                 surface.normal[pixel] = mean(seen.normals, weights).normalized();
+                 layer.paint[pixel] = mean(light, weights);
+               });
   }
 }
 

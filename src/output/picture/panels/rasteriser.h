@@ -38,12 +38,15 @@ struct MarkLayer {
 
   SurfaceLayer surface;
   std::vector<float> value;
-  std::vector<float> rim;  // 0 at the centre of a disc, 1 at its rim; 0 on a ball.
+  std::vector<float> rim;                   // 0 at the centre of a disc, 1 at its rim; 0 on a ball.
+  std::vector<Eigen::Vector3f> paint = {};  // Instead of `value`, of a painted surface: linear light. Else empty.
 };
 
 enum class Keep { kNearest, kFarthest };
 
 void draw_mesh(const Surface& mesh, const Camera& camera, Keep keep, SurfaceLayer& layer);
+
+void draw_painted(const Painted& painted, const Camera& camera, MarkLayer& layer);
 
 /// Draws discs of at least `least_radius` pixels. Discs seen from the rim are kept thick enough to be visible.
 void draw_discs(std::span<const Mark> discs, const Camera& camera, float least_radius, MarkLayer& layer);

@@ -18,13 +18,18 @@ using Eigen::Vector3f;
 
 constexpr double kDiscRadius = 0.75;  // In voxels: the discs of neighbouring voxels overlap into a sheet.
 
+Eigen::AlignedBox3d box_around(std::span<const Point> points) {
+  Eigen::AlignedBox3d box;
+  for (const Point& p : points) box.extend(Eigen::Vector3d(p.data()));
+  return box;
+}
+
 /// Maps from units of the mesh to those of the camera. Differences are taken in double, so that a small shape far from
 /// the origin keeps its digits.
 class Placement {
  public:
   explicit Placement(std::span<const Point> points) {
-    Eigen::AlignedBox3d box;
-    for (const Point& p : points) box.extend(Eigen::Vector3d(p.data()));
+    const Eigen::AlignedBox3d box = box_around(points);
     if (!box.isEmpty()) centre_ = box.center();
     double radius = 0;
     for (const Point& p : points) radius = std::max(radius, (Eigen::Vector3d(p.data()) - centre_).stableNorm());
@@ -123,6 +128,8 @@ class Scale {
 };
 
 }  // namespace
+
+Eigen::AlignedBox3d box_of(const Mesh& mesh) { return box_around(mesh.vertices); }
 
 Mark make_mark(const Mesh& mesh, const Point& centre, double radius, std::size_t colour) {
   const Placement placement(mesh.vertices);

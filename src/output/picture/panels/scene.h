@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -39,16 +40,25 @@ struct Legend {
   std::string title;
   std::string least, greatest;                                // At the ends of the bar of all colours.
   std::vector<std::pair<std::size_t, std::string>> swatches;  // Of single colours, instead of the bar.
-  std::string note = {};                                      // A line below swatches; empty: none.
+  std::string note = {};                                      // A line below; empty: none.
+};
+
+/// A surface with a colour for each corner, in linear light.
+struct Painted {
+  Surface surface;
+  std::vector<Eigen::Vector3f> light;
 };
 
 struct Scene {
   Surface mesh;
+  Painted painted = {};  // The mesh in colours, opaque, and what is drawn on it. The CPU alone draws it.
   std::vector<Mark> discs, balls;
   std::vector<Mark> on_top = {};         // Points that show through everything. The CPU alone draws them.
   std::vector<Eigen::Vector3f> palette;  // sRGB.
   Legend legend;
 };
+
+Eigen::AlignedBox3d box_of(const Mesh& mesh);
 
 /// A ball of `colour`, by its index in the palette, in the units of the camera that make_scene() has for the mesh.
 Mark make_mark(const Mesh& mesh, const Point& centre, double radius, std::size_t colour);

@@ -1,0 +1,92 @@
+#include "boundary_fields/summaries.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace medial_vk {
+namespace {
+
+/// The middle of the values in their order; 0 without values.
+double median_of(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+/// A third of the area of the triangles around each vertex.
+std::vector<double> areas_of_vertices(const Mesh& mesh) {
+  std::vector<double> areas(mesh.vertices.size(), 0);
+  for (const Triangle& t : mesh.triangles) {
+    std::array<Point, 2> side;
+    for (std::size_t k = 0; k < 3; ++k) {
+      side[0][k] = mesh.vertices[t[1]][k] - mesh.vertices[t[0]][k];
+      side[1][k] = mesh.vertices[t[2]][k] - mesh.vertices[t[0]][k];
+    }
+    const auto& [u, v] = side;
+    const double area = std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]) / 2;
+    for (const std::uint32_t corner : t) areas[corner] += area / 3;
+  }
+  return areas;
+}
+
+std::optional<CurvatureRecord::Range> range_of(const BoundaryField& field) {
+  std::optional<CurvatureRecord::Range> range;
+  for (const double value : field.values) {
+    if (std::isnan(value)) continue;
+    if (!range) range = {value, value};
+    range->least = std::min(range->least, value);
+    range->greatest = std::max(range->greatest, value);
+  }
+  return range;
+}
+
+}  // namespace
+
+ThicknessRecord summarise_thickness(std::span<const Point> points, std::vector<Thickness> at_points, double delta,
+                                    double width) {
+  ThicknessRecord record;
+  record.delta = delta;
+  record.width = width;
+  std::vector<double> lower, upper;
+  record.intervals.reserve(at_points.size());
+  lower.reserve(at_points.size());
+  upper.reserve(at_points.size());
+  for (std::size_t i = 0; i < at_points.size(); ++i) {
+    const Bounds& interval = at_points[i].diameter;
+    record.intervals.push_back(interval);
+    lower.push_back(interval.lower);
+    upper.push_back(interval.upper);
+    if (interval.upper - interval.lower > kWideInterval * interval.lower) ++record.wide;
+    record.greatest = std::max(record.greatest, interval.upper);
+    const bool is_wall = at_points[i].object_angle >= kWallAngle && 2 * at_points[i].ball.radius >= kWallDeltas * delta;
+    if (is_wall && (!record.least || interval.lower < record.least->lower)) {
+      record.least = interval;
+      record.least_at = points[i];
+    }
+  }
+  record.median = {median_of(std::move(lower)), median_of(std::move(upper))};
+  return record;
+}
+
+CurvatureRecord summarise_curvature(const Mesh& mesh, const BoundaryFields& fields) {
+  const BoundaryField& kappa_1 = *fields.find(field_names::kKappa1);
+  const BoundaryField& kappa_2 = *fields.find(field_names::kKappa2);
+  CurvatureRecord record;
+  record.kappa_1 = range_of(kappa_1);
+  record.kappa_2 = range_of(kappa_2);
+  const std::vector<double> areas = areas_of_vertices(mesh);
+  double all = 0, unknown = 0;
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    all += areas[i];
+    if (std::isnan(kappa_1.values[i]) || std::isnan(kappa_2.values[i])) unknown += areas[i];
+  }
+  record.unknown_share = all > 0 ? unknown / all : 0;
+  std::vector<double> errors = fields.find(field_names::kCurvatureError)->values;
+  std::erase_if(errors, [](double error) { return std::isnan(error); });
+  record.median_error = median_of(std::move(errors));
+  return record;
+}
+
+}  // namespace medial_vk

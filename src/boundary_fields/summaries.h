@@ -1,0 +1,56 @@
+// Measures of a whole boundary: how thick its walls are by area, and how it is curved.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "boundary_fields/boundary_fields.h"
+#include "medial_vk/mesh.h"
+#include "medial_vk/thickness.h"
+
+namespace medial_vk {
+
+/// Thickness at points that stand for equal parts of the area.
+struct ThicknessRecord {
+  double delta = 0;               ///< In mesh units.
+  double width = 0;               ///< Of an interval, relative to its lower end, at which the search ended.
+  std::vector<Bounds> intervals;  ///< By point.
+  Bounds median;                  ///< Of lower and of upper ends: holds the median over these points.
+  std::uint64_t wide = 0;         ///< Points whose interval is wider than kWideInterval of its lower end.
+  std::optional<Bounds> least;    ///< The interval of the least lower end in a wall; none: no point is in a wall.
+  Point least_at = {0, 0, 0};     ///< Its point.
+  double greatest = 0;            ///< The greatest upper end.
+};
+
+/// An interval that is no wider tells one wall from another.
+inline constexpr double kWideInterval = 0.1;
+/// A ball is in a wall if it has this object angle, in radians, and a diameter of this many deltas. At a right-angled
+/// edge the object angle is pi / 4 for points of contact alone, and with points within delta of a ball of radius r
+/// pi / 4 + acos(r / (r + delta)), which is 1.371 for r = 5 delta and less for larger ones.
+inline constexpr double kWallAngle = 1.4, kWallDeltas = 10;
+
+ThicknessRecord summarise_thickness(std::span<const Point> points, std::vector<Thickness> at_points, double delta,
+                                    double width);
+
+/// By vertices, each with a third of the area of its triangles.
+struct CurvatureRecord {
+  struct Range {
+    double least = 0, greatest = 0;
+  };
+  std::optional<Range> kappa_1, kappa_2;  ///< None: unknown at all vertices.
+  double unknown_share = 0;               ///< Of the area: where a curvature is not known.
+  double median_error = 0;                ///< Over vertices with an estimate.
+};
+
+/// `fields` hold curvatures.
+CurvatureRecord summarise_curvature(const Mesh& mesh, const BoundaryFields& fields);
+
+struct BoundaryRecord {
+  std::optional<ThicknessRecord> thickness;
+  std::optional<CurvatureRecord> curvature;
+};
+
+}  // namespace medial_vk

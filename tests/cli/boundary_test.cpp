@@ -1,0 +1,95 @@
+// Thickness and curvature of the main command: report, summary and files. tests/formats reads the files.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "support/solids/mesh_files.h"
+#include "support/solids/solids.h"
+#include "tool_test.h"
+
+namespace medial_vk {
+namespace {
+
+using test::read_file;
+using test::ToolResult;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+class BoundaryOfATool : public test::ToolTest {
+ protected:
+  /// 2 x 2 x 0.2: faces with 5 / 6 of the area are parallel.
+  BoundaryOfATool() { test::write_file(path("plate.obj"), test::to_obj(test::make_box({2, 2, 0.2}))); }
+
+  nlohmann::json report() const { return nlohmann::json::parse(read_file(path("r.json"))); }
+};
+
+TEST_F(BoundaryOfATool, TheThicknessOfAPlateIsInItsIntervals) {
+  const ToolResult result = run_cpu({"plate.obj", "--thickness", "--thickness-delta", "0.0001", "--report", "r.json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const nlohmann::json thickness = report()["boundary"]["thickness"];
+  EXPECT_LE(thickness["median"]["lower"], 0.2);
+  EXPECT_GE(thickness["median"]["upper"], 0.2);
+  // Intervals are at most this wide at the end of their search; both ends are then rounded outwards, by some errors of
+  // coordinates of up to 2, each 2e-16 or 1e-15 of a thickness of 0.2.
+  EXPECT_LE(thickness["median"]["upper"], thickness["median"]["lower"].get<double>() * 1.01 * (1 + 1e-12));
+  EXPECT_DOUBLE_EQ(thickness["delta"], 0.0002);
+  // A ball of the plate is no larger than its wall, and one within delta of a point is no thicker than that allows.
+  EXPECT_LE(thickness["greatest"], 0.2 * 1.01 * (1 + 1e-12));
+  const nlohmann::json least = thickness["least_in_a_wall"];
+  ASSERT_FALSE(least.is_null());
+  EXPECT_LE(least["lower"], 0.2);
+  EXPECT_GE(least["upper"], 0.2 - 2 * 0.0002);  // no edge: balls in the wall come within delta of its points
+  EXPECT_THAT(result.err, HasSubstr("  thickness median"));
+  EXPECT_THAT(result.err, Not(HasSubstr("  curvature")));
+  EXPECT_TRUE(report()["boundary"]["curvature"].is_null());
+}
+
+TEST_F(BoundaryOfATool, AllOutputsAreWritten) {
+  const ToolResult result =
+      run_cpu({"plate.obj", "--boundary", "b.vtp", "--thickness-histogram", "h.csv", "--picture", "p.png", "--show",
+               "boundary", "--strokes", "--size", "120x90", "--report", "r.json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(folder_.names(), ElementsAre("b.vtp", "h.csv", "p.png", "plate.medial.ply", "plate.obj", "r.json"));
+  EXPECT_THAT(result.err, HasSubstr("  curvature kappa 1"));
+  EXPECT_FALSE(report()["boundary"]["curvature"].is_null());
+  EXPECT_THAT(read_file(path("h.csv")), HasSubstr("share_by_upper_ends"));
+}
+
+TEST_F(BoundaryOfATool, FinerVerticesShowTheMiddleOfLargeFaces) {
+  const auto greatest_in = [&](const char* name) {
+    double greatest = 0;
+    const std::string bytes = read_file(path(name));
+    std::istringstream lines(bytes.substr(bytes.find("end_header\n") + 11));
+    for (std::string line; std::getline(lines, line) && line.substr(0, 2) != "3 ";) {
+      double x = 0, y = 0, z = 0, lower = 0;
+      std::istringstream(line) >> x >> y >> z >> lower;
+      greatest = std::max(greatest, lower);
+    }
+    return greatest;
+  };
+  ASSERT_EQ(run_cpu({"plate.obj", "--thickness", "--boundary", "b.ply", "--ascii"}).exit_code, 0);
+  ASSERT_EQ(
+      run_cpu({"plate.obj", "--thickness", "--boundary", "f.ply", "--ascii", "--boundary-edge", "0.25"}).exit_code, 0);
+  // At corners it is some deltas (a thousandth here); in the middle of the faces it is 0.2, to a hundredth.
+  EXPECT_LT(greatest_in("b.ply"), 0.02);
+  EXPECT_GT(greatest_in("f.ply"), 0.198 / 1.01);
+}
+
+TEST_F(BoundaryOfATool, StandardOutputHoldsTheMesh) {
+  const ToolResult result = run_cpu({"plate.obj", "--thickness", "--boundary", "-"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out.substr(0, 400), HasSubstr("property double thickness_upper"));
+}
+
+TEST_F(BoundaryOfATool, TheSameRunGivesTheSameBytesOnAnyThreads) {
+  for (const char* threads : {"1", "3"}) {
+    ASSERT_EQ(run_cpu({"plate.obj", "--boundary", std::string(threads) + ".ply", "--threads", threads}).exit_code, 0);
+  }
+  EXPECT_EQ(read_file(path("1.ply")), read_file(path("3.ply")));
+}
+
+}  // namespace
+}  // namespace medial_vk

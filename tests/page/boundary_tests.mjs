@@ -1,0 +1,77 @@
+// What was measured on the boundary, on the page.
+import assert from 'node:assert/strict';
+
+import {box} from './fixtures.mjs';
+import {assertQuiet, kSmall, look, numbersIn, openPart, selectOption, show} from './steps.mjs';
+
+const kMeasured = [...kSmall, '--thickness', '--curvature', '--boundary-edge', '0.2', '--boundary', 'boundary.ply', '--ascii'];
+
+/** The vertices of the PLY as text, by the names of their numbers. */
+function vertices(text) {
+  const [header, body] = text.split('end_header\n');
+  const names = [...header.split('element face')[0].matchAll(/property \w+ (\w+)/g)].map((match) => match[1]);
+  const count = Number(header.match(/element vertex (\d+)/)[1]);
+  return body.split('\n').slice(0, count).map((line) => Object.fromEntries(line.split(' ').map((word, i) => [names[i], Number(word)])));
+}
+
+const vertexValues = (page) => page.evaluate(`(() => { const list = document.getElementById('vertex-values');
+  if (list.hidden) return null;
+  return Object.fromEntries([...list.querySelectorAll('dt')].map((dt) => [dt.textContent, dt.nextSibling.textContent])); })()`);
+
+/** Mean red, green and blue of the pixels that are drawn. */
+const meanColour = (page) => page.evaluate(`(() => { const {viewer} = window.medialVk; viewer.drawNow(false);
+  const gl = viewer.renderer.getContext(), sums = [0, 0, 0, 0];
+  const bytes = new Uint8Array(4 * gl.drawingBufferWidth * gl.drawingBufferHeight);
+  gl.readPixels(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
+  for (let i = 0; i < bytes.length; i += 4) if (bytes[i + 3] === 255) for (let k = 0; k < 4; ++k) sums[k] += bytes[i + k];
+  return [0, 1, 2].map((k) => 255 * sums[k] / sums[3]); })()`);
+
+export const boundaryTests = {
+  /** Colours and legends change with the choice; a click on the mesh shows the numbers of the file. */
+  async boundary(context) {
+    const {page} = await openPart(context, {mesh: box(), options: kMeasured});
+    const wanted = vertices(context.workshop.read('boundary.ply').toString());
+    await show(page, ['mesh']);
+    const glass = await look(page);
+    const pictures = new Set([glass.mark]);
+    for (const [colour, words] of [['thickness', 'thickness'], ['kappa1', 'kappa 1'], ['kappa2', 'kappa 2'], ['shape', 'saddle']]) {
+      await selectOption(page, 'mesh-colour', colour);
+      pictures.add((await look(page)).mark);
+      assert.ok((await page.text('legend')).includes(words), await page.text('legend'));
+    }
+    // Curvatures of a box are all 0 or unknown: their pictures may be alike.
+    assert.ok(pictures.size >= 3, `${pictures.size} pictures`);
+
+    await selectOption(page, 'mesh-colour', 'thickness');
+    assert.equal(await page.text('opacity-value'), '100 %');
+    const [red, , blue] = await meanColour(page);
+    assert.notEqual(Math.round(red), Math.round(blue));
+    assert.equal(await vertexValues(page), null);
+    const [x, y] = await page.evaluate(`(() => { const r = document.getElementById('view').getBoundingClientRect();
+      return [r.left + r.width / 2, r.top + r.height / 2]; })()`);
+    await page.click(x, y);
+    const values = await vertexValues(page);
+    assert.ok(values, 'no vertex was picked');
+    const vertex = wanted[Number(values.vertex)];
+    // Three digits are shown.
+    const [lower, upper] = numbersIn(values.thickness);
+    assert.ok(Math.abs(lower - vertex.thickness_lower) <= 0.005 * vertex.thickness_lower, `${values.thickness}`);
+    assert.ok(Math.abs(upper - vertex.thickness_upper) <= 0.005 * vertex.thickness_upper, `${values.thickness}`);
+    assert.equal(values['kappa 1'] === 'unknown', Number.isNaN(vertex.kappa_1));
+
+    await page.click(3, 3);
+    assert.equal(await vertexValues(page), null, 'beside the mesh nothing is picked');
+    await selectOption(page, 'mesh-colour', '');
+    await page.evaluate(`{ const e = document.getElementById('opacity'); e.value = 50; e.dispatchEvent(new Event('input')); }`);
+    assert.equal((await look(page)).mark, glass.mark, 'the mesh is glass again');
+    assertQuiet(page);
+  },
+
+  async boundary_not_measured(context) {
+    const {page} = await openPart(context, {mesh: box()});
+    assert.ok(await page.evaluate(`document.getElementById('boundary').hidden`));
+    await page.click(400, 300);
+    assert.equal(await vertexValues(page), null);
+    assertQuiet(page);
+  },
+};

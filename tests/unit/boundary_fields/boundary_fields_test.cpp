@@ -1,0 +1,139 @@
+// What was measured at vertices by name, its summaries, and finer meshes of the same surface.
+#include "boundary_fields/boundary_fields.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "boundary_fields/refined_mesh.h"
+#include "boundary_fields/summaries.h"
+#include "support/solids/solids.h"
+
+namespace medial_vk {
+namespace {
+
+using testing::ElementsAre;
+
+Thickness wall(double lower, double upper, double object_angle = 1.5) {
+  return {{lower, upper}, {{0, 0, 0}, lower / 2}, object_angle};
+}
+
+double length(const Mesh& mesh, std::uint32_t a, std::uint32_t b) {
+  const Point& p = mesh.vertices[a];
+  const Point& q = mesh.vertices[b];
+  return std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
+}
+
+double area(const Mesh& mesh) {
+  double sum = 0;
+  for (const Triangle& t : mesh.triangles) {
+    Point u{}, v{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      u[k] = mesh.vertices[t[1]][k] - mesh.vertices[t[0]][k];
+      v[k] = mesh.vertices[t[2]][k] - mesh.vertices[t[0]][k];
+    }
+    sum += std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]) / 2;
+  }
+  return sum;
+}
+
+TEST(BoundaryFields, HaveNumbersByName) {
+  BoundaryFields fields;
+  add_thickness(fields, std::vector<Thickness>{wall(1, 2), wall(3, 4, 0.5)});
+  EXPECT_THAT(fields.find(field_names::kThicknessLower)->values, ElementsAre(1, 3));
+  EXPECT_THAT(fields.find(field_names::kThicknessUpper)->values, ElementsAre(2, 4));
+  EXPECT_THAT(fields.find(field_names::kObjectAngle)->values, ElementsAre(1.5, 0.5));
+  EXPECT_EQ(fields.find(field_names::kKappa1), nullptr);
+}
+
+TEST(BoundaryFields, TakeTheSheetOfTheBallThatGivesTheCurvature) {
+  VertexCurvature known, unknown;
+  known.state = CurvatureState::kCut;
+  known.kappa = {2, -1};
+  known.directions = {Point{1, 0, 0}, Point{0, 1, 0}};
+  known.ball = 1;
+  std::vector<MedialSphere> spheres(2);
+  spheres[1].sheet = 7;
+  BoundaryFields fields;
+  add_curvature(fields, std::vector<VertexCurvature>{known, unknown}, spheres);
+  EXPECT_THAT(fields.find(field_names::kSheet)->values, ElementsAre(7, -1));
+  EXPECT_THAT(fields.find(field_names::kCurvatureState)->values, ElementsAre(1, 5));
+  EXPECT_EQ(state_name(known.state), "cut");
+  EXPECT_EQ(state_name(unknown.state), "few");
+  EXPECT_EQ(fields.find(field_names::kKappa2)->values[0], -1);
+  EXPECT_TRUE(std::isnan(fields.find(field_names::kKappa2)->values[1]));
+  EXPECT_EQ(fields.find(field_names::kDirection2)->values[1], 1);
+}
+
+/// A thinner place counts as a wall only with a ball whose object angle is that of a wall.
+TEST(ThicknessSummary, FindsTheLeastWallAndTheWideIntervals) {
+  const std::vector<Point> points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}};
+  Thickness none = wall(0, 5);
+  none.ball.radius = 0;
+  const ThicknessRecord record =
+      summarise_thickness(points, {wall(3, 3.1), wall(1, 1.05, 1.37), wall(2, 2.3), none, wall(4, 4.01)}, 0.1, 0.01);
+  ASSERT_TRUE(record.least.has_value());
+  EXPECT_EQ(record.least->lower, 2);
+  EXPECT_EQ(record.least->upper, 2.3);
+  EXPECT_EQ(record.least_at, (Point{2, 0, 0}));
+  EXPECT_EQ(record.median.lower, 2);
+  EXPECT_EQ(record.median.upper, 3.1);
+  EXPECT_EQ(record.wide, 2u);
+  EXPECT_EQ(record.greatest, 5);
+  // Of balls that are small for delta, the angle says little.
+  EXPECT_FALSE(summarise_thickness(points, {wall(1, 1.05, 1.5)}, 0.11, 0.01).least.has_value());
+  EXPECT_FALSE(summarise_thickness({}, {}, 0.1, 0.01).least.has_value());
+}
+
+/// Of two triangles in a plane, the vertices of the larger one alone are known.
+TEST(CurvatureSummary, CountsAreaAndNotVertices) {
+  Mesh mesh;
+  mesh.vertices = {{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {10, 0, 0}, {11, 0, 0}, {10, 2, 0}};
+  mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+  std::vector<VertexCurvature> curvature(6);
+  for (std::size_t i = 0; i < 3; ++i) {
+    curvature[i].kappa = {static_cast<double>(i), -1.0 - static_cast<double>(i)};
+    curvature[i].error = static_cast<double>(i);
+  }
+  BoundaryFields fields;
+  add_curvature(fields, curvature, {});
+  const CurvatureRecord record = summarise_curvature(mesh, fields);
+  EXPECT_DOUBLE_EQ(record.unknown_share, 0.25);
+  EXPECT_EQ(record.kappa_1->greatest, 2);
+  EXPECT_EQ(record.kappa_2->least, -3);
+  EXPECT_EQ(record.median_error, 1);
+}
+
+TEST(RefineMesh, KeepsTheSurfaceClosedAndItsVerticesFirst) {
+  const Mesh mesh = test::make_box({4, 2, 1});
+  // Coordinates are sums of few powers of two, so that middles and areas are exact.
+  const Mesh refined = refine_mesh(mesh, 0.5);
+  ASSERT_GT(refined.vertices.size(), mesh.vertices.size());
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) EXPECT_EQ(refined.vertices[i], mesh.vertices[i]);
+  EXPECT_EQ(area(refined), area(mesh));
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+  for (const Triangle& t : refined.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_LE(length(refined, t[i], t[(i + 1) % 3]), 0.5);
+      ++edges[{t[i], t[(i + 1) % 3]}];
+    }
+  }
+  for (const auto& [edge, count] : edges) {
+    EXPECT_EQ(count, 1);
+    EXPECT_TRUE(edges.contains({edge.second, edge.first}));
+  }
+}
+
+TEST(RefineMesh, LeavesAFineMeshAsItIs) {
+  const Mesh mesh = test::make_box({4, 2, 1});
+  const Mesh same = refine_mesh(mesh, 5);
+  EXPECT_EQ(same.vertices, mesh.vertices);
+  EXPECT_EQ(same.triangles, mesh.triangles);
+}
+
+}  // namespace
+}  // namespace medial_vk
