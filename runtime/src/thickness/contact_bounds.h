@@ -60,17 +60,22 @@ inline double reach_by(const Contact& contact, double along, const Slack& slack)
   return reach_by(contact.squared, along, slack);
 }
 
-/// Distances from p at which the points in all four directions are within `radius` of the contact; empty if the lower
-/// bound is above the upper one.
+/// Distances from p at which the point in a direction u is within `radius` of a point q, for u.q = `product`; empty if
+/// the lower bound is above the upper one.
+inline Bounds distances_near(double product, double squared, double radius) {
+  const double rest = radius * radius * (1 - kSquareRounding) - squared * (1 + kSquareRounding);
+  const double half = std::sqrt(std::max(0.0, rest + product * product));
+  if (!(half > 0)) return {1, 0};
+  return {(product - half) * kBoundRounding, (product + half) / kBoundRounding};
+}
+
+/// The same in all four directions.
 inline Bounds distances_near(const FourDirections& directions, const Contact& contact, double radius) {
-  const std::array<double, 4> products = along(directions, contact.at);
-  const double rest = radius * radius * (1 - kSquareRounding) - contact.squared * (1 + kSquareRounding);
   Bounds near = {0, std::numeric_limits<double>::infinity()};
-  for (const double product : products) {
-    const double half = std::sqrt(std::max(0.0, rest + product * product));
-    if (!(half > 0)) return {1, 0};
-    near.lower = std::max(near.lower, (product - half) * kBoundRounding);
-    near.upper = std::min(near.upper, (product + half) / kBoundRounding);
+  for (const double product : along(directions, contact.at)) {
+    const Bounds one = distances_near(product, contact.squared, radius);
+    near = {std::max(near.lower, one.lower), std::min(near.upper, one.upper)};
+    if (near.lower > near.upper) return near;
   }
   return near;
 }

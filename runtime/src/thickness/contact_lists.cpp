@@ -48,6 +48,38 @@ struct MeasureContacts {
   }
 };
 
+/// The reach along a ray by each contact.
+struct MeasureReach {
+  const Point& direction;
+  Columns from;
+  std::size_t count;
+  const Slack& slack;
+  double* reach;
+
+  MEDIAL_VK_INLINE void operator()() const {
+    for (std::size_t j = 0; j < count; ++j) {
+      const double product = direction[0] * from.x[j] + direction[1] * from.y[j] + direction[2] * from.z[j];
+      reach[j] = reach_by(from.squared[j], product, slack);
+    }
+  }
+};
+
+/// The squared distance of a point from each contact.
+struct MeasureSquares {
+  const Point& m;
+  double squared;
+  Columns from;
+  std::size_t count;
+  double* distances;
+
+  MEDIAL_VK_INLINE void operator()() const {
+    for (std::size_t j = 0; j < count; ++j) {
+      const double product = m[0] * from.x[j] + m[1] * from.y[j] + m[2] * from.z[j];
+      distances[j] = squared - 2 * product + from.squared[j];
+    }
+  }
+};
+
 /// The interval of each contact: |s u - q| <= radius for s = u.q -+ sqrt(radius^2 - |q|^2 + (u.q)^2).
 struct MeasureIntervals {
   const FourDirections& directions;
@@ -131,12 +163,34 @@ ContactLists::Reach ContactLists::narrow(const DirectionCell& cell, const Slack&
   return found;
 }
 
-double ContactLists::reach_along(const Point& direction, const Slack& slack, double reach, const List& list) const {
-  for (std::size_t j = list.first; j < list.first + list.count; ++j) {
-    const Contact contact = {{listed_.x[j], listed_.y[j], listed_.z[j]}, listed_.squared[j]};
-    reach = std::min(reach, reach_by(contact, dot(direction, contact.at), slack));
+ContactLists::Reach ContactLists::reach_along(const Point& direction, const Slack& slack, double reach) {
+  return least_reach(all_, 0, size(), direction, slack, reach);
+}
+
+ContactLists::Reach ContactLists::reach_along(const Point& direction, const Slack& slack, double reach,
+                                              const List& list) {
+  return least_reach(listed_, list.first, list.count, direction, slack, reach);
+}
+
+ContactLists::Reach ContactLists::least_reach(const ContactArrays& from, std::size_t first, std::size_t count,
+                                              const Point& direction, const Slack& slack, double reach) {
+  reach_.resize(count);
+  MeasureReach work = {direction, Columns(from, first), count, slack, reach_.data()};
+  run_on_this_processor(work);
+  Reach found = {reach, kNone};
+  for (std::size_t j = 0; j < count; ++j) {
+    if (reach_[j] < found.most) found = {reach_[j], from.number[first + j]};
   }
-  return reach;
+  return found;
+}
+
+double ContactLists::least_squared_distance(const Point& m) {
+  reach_.resize(size());
+  MeasureSquares work = {m, dot(m, m), Columns(all_, 0), size(), reach_.data()};
+  run_on_this_processor(work);
+  double least = kInfinite;
+  for (std::size_t j = 0; j < size(); ++j) least = lesser_of(least, reach_[j]);
+  return least;
 }
 
 void ContactLists::intervals_near(const FourDirections& directions, const List& list, double radius, double from,

@@ -41,8 +41,11 @@ class ContactLists {
   /// bound balls in a part of the cell: a contact q bounds a ball around s u, with s at most the reach, only if it is
   /// in the ball through p around the farthest centre, |q|^2 <= 2 s u.q.
   Reach narrow(const DirectionCell& cell, const Slack& slack, double reach, List& list);
-  /// The same along a ray, without another list.
-  double reach_along(const Point& direction, const Slack& slack, double reach, const List& list) const;
+  /// The same along a ray, by all contacts or those of a list.
+  Reach reach_along(const Point& direction, const Slack& slack, double reach);
+  Reach reach_along(const Point& direction, const Slack& slack, double reach, const List& list);
+  /// From m to a contact, up to rounding; infinite without contacts.
+  double least_squared_distance(const Point& m);
 
   /// Distances from p at which the points in all four directions are within a radius of a contact.
   struct Interval {
@@ -54,6 +57,8 @@ class ContactLists {
                       std::vector<Interval>& intervals);
 
  private:
+  Reach least_reach(const ContactArrays& from, std::size_t first, std::size_t count, const Point& direction,
+                    const Slack& slack, double reach);
   void measure(const ContactArrays& from, std::size_t first, std::size_t count, const DirectionCell& cell,
                const Slack& slack, double reach);
 

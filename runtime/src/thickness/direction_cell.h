@@ -1,4 +1,4 @@
-// Cells of directions from a point, as rectangles on the faces of a cube around it.
+// Cells of directions from a point: the cones over triangles.
 #pragma once
 
 #include <array>
@@ -17,31 +17,36 @@ struct CubeFrame {
   static CubeFrame around(const Point& axis);
 };
 
-/// The directions through a rectangle on a face of the cube [-1, 1]^3 of a frame.
+/// The directions that are sums of three unit vectors with weights that are not negative.
 class DirectionCell {
  public:
-  static constexpr std::size_t kFaces = 6;
-  static constexpr std::size_t kParts = 4;
+  static constexpr std::size_t kParts = 2;
+  /// Cells are not divided more often. Each time, the new corner is within 2 u of the arc between two others, so that
+  /// directions between neighbouring cells are at most 64 u outside them, which is within Slack::product.
+  static constexpr int kMostDivisions = 32;
 
-  /// A whole face; the first one is that of the third axis.
-  static DirectionCell face(const CubeFrame& frame, std::size_t face);
-  /// One of the quarters of the rectangle.
-  DirectionCell part(const CubeFrame& frame, std::size_t index) const;
+  explicit DirectionCell(const std::array<Point, 3>& corners) : DirectionCell(corners, 0) {}
 
-  /// Unit vectors. Each direction in the cell is a sum of the corners with weights that are not negative and have a sum
-  /// of at least 1 and at most bulge().
+  /// One side of the line from the middle of the longest edge to the corner opposite to it.
+  DirectionCell part(std::size_t index) const;
+  bool can_be_divided() const { return divisions_ < kMostDivisions; }
+
+  /// Unit vectors, of which the last two are equal. Each direction in the cell is a sum of the corners with weights
+  /// that are not negative and have a sum of at least 1 and at most bulge(), which is infinite for cells that are too
+  /// large.
   const FourDirections& corners() const { return corners_; }
   const Point& middle() const { return middle_; }
   double bulge() const { return bulge_; }
 
  private:
-  DirectionCell(const CubeFrame& frame, std::uint8_t face, double x, double y, double half);
+  DirectionCell(const std::array<Point, 3>& corners, int divisions);
+
+  Point corner(std::size_t i) const { return {corners_[0][i], corners_[1][i], corners_[2][i]}; }
 
   FourDirections corners_;
   Point middle_;
   double bulge_;
-  double x_, y_, half_;
-  std::uint8_t face_;
+  int divisions_;
 };
 
 }  // namespace medial_vk

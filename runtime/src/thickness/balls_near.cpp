@@ -1,0 +1,172 @@
+#include "thickness/balls_near.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace medial_vk {
+namespace {
+
+// Probed centres are closer to p by this share than the bound, so that rounding does not decide whether their balls
+// come within delta.
+constexpr double kInset = 0x1p-20;
+
+// Smaller balls than this share of delta are not searched for.
+constexpr double kLeastShare = 0x1p-4;
+
+constexpr std::size_t kMostOthers = 8, kMostKept = 40;
+
+}  // namespace
+
+BallsNear::BallsNear(const ThicknessField& field)
+    : field_(field), delta_(field.options.delta), limit_(0.5 * field.options.limit) {}
+
+void BallsNear::start(const Point& p) {
+  p_ = p;
+  contacts_.clear();
+  used_.clear();
+  is_point_.clear();
+  for (const Point& kept : kept_) add({kept - p, dot(kept - p, kept - p)}, true);
+  others_.clear();
+  best_ = {};
+  doubtful_ = 0;
+  target_ = kLeastShare * delta_;
+  queries_ = 0;
+  const double off = std::sqrt(field_.tree.closest(field_.solid.bvh(), p).squared_distance);
+  // Contacts and distances have an error of at most Solid::rounding(), and products with contacts, which are no longer
+  // than the diagonal and `off`, one of 4 u times that: docs/theory.md, "Thickness".
+  rounding_ = 4 * field_.solid.rounding() + 0x1p-44 * off;
+  slack_ = {delta_ + rounding_, delta_ + 2 * rounding_};
+  off_ = off + rounding_;
+}
+
+/// If a direction has a point in the other ball at a distance from p that is above delta and at most that of a centre,
+/// the ball around this centre would hold the point, and all points in a ball are on one side. A ray whose product with
+/// the other centre is greater is in the other ball from a smaller distance to a greater one.
+bool BallsNear::are_on_other_side(const Ball& other, double least_product) const {
+  if (!(least_product > 0)) return false;
+  const Bounds near = distances_near(least_product, dot(other.centre, other.centre), radius_of_other(other));
+  return std::max(near.lower, slack_.product * kBoundRounding) <= std::min(near.upper, least_reach() / kBoundRounding);
+}
+
+BallsNear::Probe BallsNear::probe_at(const Point& direction, double distance) {
+  const Point offset = distance * direction;
+  const double squared = std::max(0.0, contacts_.least_squared_distance(offset)), by_p = distance + off_;
+  const double bound = std::min(std::sqrt(squared), by_p) * (1 + 0x1p-20) + rounding_;
+  BvhHit hit = field_.tree.closest(field_.solid.bvh(), p_ + offset, bound);
+  if (hit.triangle == BvhHit().triangle) hit = field_.tree.closest(field_.solid.bvh(), p_ + offset);  // by rounding
+  ++queries_;
+  const double radius = std::sqrt(hit.squared_distance) - rounding_;
+  const Point at = hit.point - p_;
+  add({at, dot(at, at)}, true);
+  const bool is_near = distance * kBoundRounding + rounding_ <= radius + delta_;
+  if (is_near && radius > std::max(best_.radius, doubtful_)) record(offset, radius);
+  return {is_near, dot(direction, at), radius};
+}
+
+/// Finds the farthest centre on a ray whose ball comes within delta of p: the excess of |m - p| over radius and delta
+/// grows along the ray. Contacts of centres beyond it shorten the reach, in great steps at first; then the next centre
+/// is where the excess between two others would be zero if it grew evenly.
+void BallsNear::probe(const Point& direction, double reach) {
+  constexpr int kMostSteps = 24, kShrinkingSteps = 3;
+  const double enough = 1 - field_.options.width / 8;
+  double near = 0, near_excess = -delta_, beyond = reach, excess = 0;
+  for (int step = 0; step < kMostSteps && reach > target() && near < enough * reach; ++step) {
+    double distance = reach * (1 - kInset);
+    if (step >= kShrinkingSteps) {
+      const double even = near + (beyond - near) * (-near_excess / (excess - near_excess));
+      distance = std::clamp(even, std::min(near + 0.1 * (reach - near), distance), distance);
+    }
+    const Probe found = probe_at(direction, distance);
+    if (found.is_near) {
+      if (found.along > distance) go_back(direction, distance, found);
+      if (step < kShrinkingSteps) return;
+      near = distance;
+      near_excess = std::min(distance - found.radius - delta_, -0x1p-10 * delta_);
+      continue;
+    }
+    const double next = reach_by(contacts_.contact(contacts_.size() - 1), found.along, slack_);
+    if (!(next < reach)) return;
+    reach = next;
+    beyond = distance;
+    excess = std::max(distance - found.radius - delta_, 0x1p-10 * delta_);
+  }
+}
+
+/// If the contact of a ball lies ahead, balls on the way to it are larger, up to the one that has p and this contact on
+/// its sphere.
+void BallsNear::go_back(const Point& direction, double distance, Probe found) {
+  constexpr int kMostSteps = 8;
+  for (int step = 0; step < kMostSteps && found.along > distance; ++step) {
+    const double next = contacts_.contact(contacts_.size() - 1).squared / (2 * found.along);
+    if (!(next < distance) || next <= target()) return;
+    distance = next;
+    found = probe_at(direction, distance);
+  }
+}
+
+void BallsNear::add(const Contact& contact, bool is_point) {
+  contacts_.add(contact);
+  used_.push_back(false);
+  is_point_.push_back(is_point);
+}
+
+/// Keeps a ball that comes within delta of p, on whichever side. On an open mesh the side of a centre may be that of
+/// this centre alone; then the ball counts on both sides for the upper bound.
+void BallsNear::record(const Point& offset, double radius) {
+  const bool walls = field_.options.side == ThicknessSide::kWalls;
+  const SolidSide wanted = walls ? SolidSide::kInside : SolidSide::kOutside, side = side_of(offset, radius);
+  const double counted = std::min(radius, limit_);
+  if (side == SolidSide::kUnknown) {
+    doubtful_ = std::max(doubtful_, counted);
+    if (field_.solid.contains(p_ + offset) == walls && counted > best_.radius) best_ = {offset, counted};
+  } else if (side == wanted) {
+    best_ = {offset, counted};
+  } else {
+    if (others_.size() == kMostOthers) others_.erase(others_.begin());
+    others_.push_back({offset, radius});
+    return;
+  }
+  if (counted * (1 + 0.5 * field_.options.width) > target_)
+    target_ = counted * (1 + field_.options.width) * kBoundRounding;
+}
+
+/// The side of all centres in a ball. In a closed mesh, balls that overlap are on one side, as the boundary meets
+/// neither.
+SolidSide BallsNear::side_of(const Point& centre, double radius) const {
+  const bool walls = field_.options.side == ThicknessSide::kWalls;
+  const auto overlaps = [&](const Ball& ball) {
+    return length(centre - ball.centre) * kBoundRounding < radius + ball.radius;
+  };
+  if (field_.solid.mesh().report.closed) {
+    if (best_.radius > 0 && overlaps(best_)) return walls ? SolidSide::kInside : SolidSide::kOutside;
+    if (std::ranges::any_of(others_, overlaps)) return walls ? SolidSide::kOutside : SolidSide::kInside;
+  }
+  return field_.solid.side_around(p_ + centre, radius);
+}
+
+void BallsNear::keep_used() {
+  kept_.clear();
+  for (std::size_t i = contacts_.size(); i-- > 0 && kept_.size() < kMostKept;) {
+    if (used_[i] && is_point_[i]) kept_.push_back(p_ + contacts_.contact(i).at);
+  }
+}
+
+double BallsNear::object_angle() const {
+  if (!(best_.radius > 0)) return 0;
+  std::vector<Point> spokes;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    if (!is_point_[i]) continue;
+    const Point spoke = contacts_.contact(i).at - best_.centre;
+    const double distance = length(spoke);
+    if (distance <= best_.radius + delta_) spokes.push_back((1 / distance) * spoke);
+  }
+  const double to_p = length(best_.centre);
+  if (to_p > 0) spokes.push_back((-1 / to_p) * best_.centre);
+  double least_cosine = 1;
+  for (std::size_t i = 0; i < spokes.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) least_cosine = std::min(least_cosine, dot(spokes[i], spokes[k]));
+  }
+  return 0.5 * std::acos(std::max(-1.0, least_cosine));
+}
+
+}  // namespace medial_vk
