@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "base/point_ops.h"
+#include "medial_vk/bvh.h"
 
 namespace medial_vk {
 namespace {
