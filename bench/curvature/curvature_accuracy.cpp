@@ -26,7 +26,7 @@ struct Settings {
   std::uint32_t triangles = 16000, resolution = 160;
   double object_angle = 0.3, jitter = 0;
   unsigned threads = 0;
-  bool only_vertices = false;
+  bool vertices = false;
 };
 
 double angle_between(const Point& a, const Point& b) { return kDegrees * std::atan2(length(cross(a, b)), dot(a, b)); }
@@ -187,12 +187,15 @@ void measure_solid(const std::string& name, const Settings& settings, Context& c
   if (settings.jitter > 0) solid.jitter(settings.jitter, 1);
   const double greatest = greatest_curvature(solid);
   const std::vector<MedialSphere> spheres = extract(solid, settings, context);
-  Errors fits(greatest), differences(greatest), at_vertices(greatest), along(greatest), cells(greatest);
-  measure_vertices(solid, spheres, CurvatureAssignment::kAlongSurface, settings, along);
-  along.print(name, "along the surface");
-  measure_vertices(solid, spheres, CurvatureAssignment::kVoronoi, settings, cells);
-  cells.print(name, "cells");
-  if (settings.only_vertices) return;
+  if (settings.vertices) {
+    Errors along(greatest), cells(greatest);
+    measure_vertices(solid, spheres, CurvatureAssignment::kAlongSurface, settings, along);
+    along.print(name, "along the surface");
+    measure_vertices(solid, spheres, CurvatureAssignment::kVoronoi, settings, cells);
+    cells.print(name, "cells");
+    return;
+  }
+  Errors fits(greatest), differences(greatest), at_vertices(greatest);
   measure_balls(solid, spheres, CurvatureMethod::kFits, fits, settings);
   fits.print(name, "fits");
   measure_balls(solid, spheres, CurvatureMethod::kDifferences, differences, settings);
@@ -217,7 +220,7 @@ int main(int argc, char** argv) {
   app.add_option("--resolution", settings.resolution, "voxels along the longest side");
   app.add_option("--object-angle", settings.object_angle, "of the balls that are found");
   app.add_option("--jitter", settings.jitter, "vertices are moved by up to this share of their shortest edge");
-  app.add_flag("--only-vertices", settings.only_vertices, "only assignments to vertices");
+  app.add_flag("--vertices", settings.vertices, "the assignments to vertices instead");
   app.add_option("--threads", settings.threads, "of the host, 0: all");
   CLI11_PARSE(app, argc, argv);
   auto context = Context::create();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -19,13 +20,18 @@
 namespace medial_vk {
 namespace {
 
-constexpr std::array<std::string_view, 5> kColumns = {"x", "y", "z", "radius", "level"};
-constexpr std::size_t kLevel = 4;  // the only column that may be missing
+constexpr std::array<std::string_view, 11> kColumns = {
+    "x", "y", "z", "radius", "level", "spoke_a_x", "spoke_a_y", "spoke_a_z", "spoke_b_x", "spoke_b_y", "spoke_b_z"};
+constexpr std::size_t kLevel = 4, kSpokes = 5;  // columns from the first one on may be missing
 
 struct BallOfLevel {
   Ball ball;
   double level = 0;
+  SpokePair spokes;
 };
+
+/// Of words with seven digits or more.
+bool is_unit(const Point& p) { return std::fabs(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] - 1) < 1e-3; }
 
 class BallTable {
  public:
@@ -37,7 +43,7 @@ class BallTable {
       const auto count = std::ranges::count(words, kColumns[i]);
       if (count > 1) return line_error(name_, number, fmt::format("two columns are named {}", kColumns[i]));
       if (count == 1) column_[i] = static_cast<std::size_t>(std::ranges::find(words, kColumns[i]) - words.begin());
-      if (count == 0 && i != kLevel) {
+      if (count == 0 && i < kLevel) {
         return line_error(name_, number, "the first line must name the columns x, y, z and radius, in any order");
       }
     }
@@ -45,8 +51,12 @@ class BallTable {
       return line_error(name_, number, "the balls are those of the links of a robot, which are several solids");
     }
     columns_ = words.size();
+    const auto is_named = [](const std::optional<std::size_t>& column) { return column.has_value(); };
+    has_spokes_ = std::all_of(column_.begin() + kSpokes, column_.end(), is_named);
     return {};
   }
+
+  bool has_spokes() const { return has_spokes_; }
 
   Result<BallOfLevel> read_ball(std::string_view line, std::uint64_t number) const {
     const std::vector<std::string_view> words = csv_words(line);
@@ -55,51 +65,67 @@ class BallTable {
     }
     std::array<double, kColumns.size()> values = {};
     for (std::size_t i = 0; i < kColumns.size(); ++i) {
-      if (!column_[i]) continue;
+      if (!column_[i] || (i >= kSpokes && !has_spokes_)) continue;
       std::string_view why;
       const std::string_view word = words[*column_[i]];
       if (!parse_coordinate(word, values[i], why)) {
         return line_error(name_, number, fmt::format("{}: {} {}", kColumns[i], quoted(word), why));
       }
     }
-    const auto [x, y, z, radius, level] = values;
+    const double radius = values[3];
     if (!(radius > 0)) return line_error(name_, number, fmt::format("the radius {} is not positive", radius));
-    return BallOfLevel{{{x, y, z}, radius}, level};
+    const SpokePair spokes = {{values[5], values[6], values[7]}, {values[8], values[9], values[10]}};
+    if (has_spokes_ && (!is_unit(spokes.a) || !is_unit(spokes.b))) {
+      return line_error(name_, number, "a spoke is no unit vector");
+    }
+    return BallOfLevel{{{values[0], values[1], values[2]}, radius}, values[kLevel], spokes};
   }
 
  private:
   std::string name_;
   std::array<std::optional<std::size_t>, kColumns.size()> column_;
   std::size_t columns_ = 0;
+  bool has_spokes_ = false;
 };
 
-Result<std::vector<Ball>> balls_of_medial_ply(const std::string& path) {
+Result<BallsWithSpokes> balls_of_medial_ply(const std::string& path) {
   const Result<std::string> bytes = read_table(path);
   if (!bytes) return bytes.error();
   const Result<MedialFile> file = decode_ply(bytes.value(), path);
   if (!file) return file.error();
-  std::vector<Ball> balls;
-  for (const MedialSphere& sphere : file.value().spheres) balls.push_back({sphere.centre, sphere.radius});
-  return balls;
+  const auto point = [](const std::array<float, 3>& spoke) { return Point{spoke[0], spoke[1], spoke[2]}; };
+  BallsWithSpokes out;
+  out.balls.reserve(file.value().spheres.size());
+  out.spokes.reserve(file.value().spheres.size());
+  for (const MedialSphere& sphere : file.value().spheres) {
+    out.balls.push_back({sphere.centre, sphere.radius});
+    out.spokes.push_back({point(sphere.spoke_a), point(sphere.spoke_b)});
+  }
+  return out;
 }
 
-Result<std::vector<Ball>> balls_of_body(const std::string& path, BodyBalls which) {
+Result<BallsWithSpokes> balls_of_body(const std::string& path, BodyBalls which) {
   Result<BodyFile> file = read_body_file(path);
   if (!file) return file.error();
-  return std::move(which == BodyBalls::kInside ? file.value().inside : file.value().cover);
+  return BallsWithSpokes{std::move(which == BodyBalls::kInside ? file.value().inside : file.value().cover), {}};
 }
 
-Result<std::vector<Ball>> balls_of_table(const std::string& path) {
+Result<BallsWithSpokes> balls_of_table(const std::string& path) {
   const Result<std::string> text = read_table(path);
   if (!text) return text.error();
-  return parse_balls(text.value(), path == "-" ? "stdin" : path);
+  return parse_balls_with_spokes(text.value(), path == "-" ? "stdin" : path);
+}
+
+Result<std::vector<Ball>> without_spokes(Result<BallsWithSpokes> read) {
+  if (!read) return read.error();
+  return std::move(read.value().balls);
 }
 
 }  // namespace
 
-Result<std::vector<Ball>> parse_balls(std::string_view text, const std::string& name) {
+Result<BallsWithSpokes> parse_balls_with_spokes(std::string_view text, const std::string& name) {
   BallTable table(name);
-  std::vector<Ball> balls;
+  BallsWithSpokes out;
   double last_level = -std::numeric_limits<double>::infinity();
   bool has_columns = false;
   for (CsvLines lines(text); lines.next();) {
@@ -111,21 +137,30 @@ Result<std::vector<Ball>> parse_balls(std::string_view text, const std::string& 
     const Result<BallOfLevel> read = table.read_ball(lines.line(), lines.number());
     if (!read) return read.error();
     if (read.value().level < last_level) continue;
-    if (read.value().level > last_level) balls.clear();
+    if (read.value().level > last_level) out = {};
     last_level = read.value().level;
-    balls.push_back(read.value().ball);
+    out.balls.push_back(read.value().ball);
+    if (table.has_spokes()) out.spokes.push_back(read.value().spokes);
   }
-  if (balls.empty()) return file_error(name, "there is no ball");
-  return balls;
+  if (out.balls.empty()) return file_error(name, "there is no ball");
+  return out;
+}
+
+Result<std::vector<Ball>> parse_balls(std::string_view text, const std::string& name) {
+  return without_spokes(parse_balls_with_spokes(text, name));
+}
+
+Result<BallsWithSpokes> read_balls_with_spokes(const std::string& path, BodyBalls of_body) {
+  const std::string extension = file_extension(path);
+  Result<BallsWithSpokes> read = extension == ".ply"   ? balls_of_medial_ply(path)
+                                 : extension == ".npz" ? balls_of_body(path, of_body)
+                                                       : balls_of_table(path);
+  if (read && read.value().balls.empty()) return file_error(path, "there is no ball");
+  return read;
 }
 
 Result<std::vector<Ball>> read_balls(const std::string& path, BodyBalls of_body) {
-  const std::string extension = file_extension(path);
-  Result<std::vector<Ball>> balls = extension == ".ply"   ? balls_of_medial_ply(path)
-                                    : extension == ".npz" ? balls_of_body(path, of_body)
-                                                          : balls_of_table(path);
-  if (balls && balls.value().empty()) return file_error(path, "there is no ball");
-  return balls;
+  return without_spokes(read_balls_with_spokes(path, of_body));
 }
 
 }  // namespace medial_vk

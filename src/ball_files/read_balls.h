@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "medial_vk/ball.h"
+#include "medial_vk/curvature.h"
 #include "medial_vk/result.h"
 
 namespace medial_vk {
@@ -15,11 +16,24 @@ namespace medial_vk {
 /// a robot, is refused. Numbers are finite and radii positive. Error: kInvalidMesh, with `name` and the line at fault.
 Result<std::vector<Ball>> parse_balls(std::string_view text, const std::string& name);
 
+/// Balls, and the spokes of each if the file has them.
+struct BallsWithSpokes {
+  std::vector<Ball> balls;
+  std::vector<SpokePair> spokes;  ///< As many, or none.
+};
+
+/// The same, with spokes where the table has all of the columns spoke_a_x, spoke_a_y, spoke_a_z, spoke_b_x, spoke_b_y
+/// and spoke_b_z: unit vectors.
+Result<BallsWithSpokes> parse_balls_with_spokes(std::string_view text, const std::string& name);
+
 /// Which balls of a body file.
 enum class BodyBalls { kInside, kCover };
 
 /// A medial PLY has the balls of its points, a body file (.npz) those of `of_body`; any other name is that of a table;
 /// "-": a table on standard input. Errors: kInvalidMesh (the file cannot be read, or has no ball), kOutOfMemory.
 Result<std::vector<Ball>> read_balls(const std::string& path, BodyBalls of_body = BodyBalls::kInside);
+
+/// The same, with the spokes of a medial PLY, or of a table that has their columns. A body file has none.
+Result<BallsWithSpokes> read_balls_with_spokes(const std::string& path, BodyBalls of_body = BodyBalls::kInside);
 
 }  // namespace medial_vk

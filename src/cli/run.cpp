@@ -6,6 +6,7 @@
 #include <new>
 
 #include "cli/clearance/run_clearance.h"
+#include "cli/curvature/run_curvature.h"
 #include "cli/distance/run_distance.h"
 #include "cli/doctor/run_doctor.h"
 #include "cli/extract/run_extract.h"
@@ -50,6 +51,7 @@ Command command_of(const std::vector<std::string>& arguments) {
   if (arguments[0] == "distance") return Command::kDistance;
   if (arguments[0] == "clearance") return Command::kClearance;
   if (arguments[0] == "follow") return Command::kFollow;
+  if (arguments[0] == "curvature") return Command::kCurvature;
   return arguments[0] == "doctor" ? Command::kDoctor : Command::kExtract;
 }
 
@@ -58,6 +60,7 @@ Status parse_and_run(Command command, const std::vector<std::string>& arguments)
   if (command == Command::kDistance) return run_distance({arguments.begin() + 1, arguments.end()});
   if (command == Command::kClearance) return run_clearance({arguments.begin() + 1, arguments.end()});
   if (command == Command::kFollow) return run_follow({arguments.begin() + 1, arguments.end()});
+  if (command == Command::kCurvature) return run_curvature({arguments.begin() + 1, arguments.end()});
   if (command == Command::kDoctor) return run_doctor({arguments.begin() + 1, arguments.end()});
   const Result<Options> options = parse_options(arguments);
   if (!options) return options.error();

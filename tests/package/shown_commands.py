@@ -38,6 +38,7 @@ NOT_RUN = {
     r"medial-vk clearance( ROBOT.urdf)?$": "names the command; a run of it has joints",
     r"medial-vk clearance robot.urdf --joints joints.csv --balls": "fits covers to all links, which takes minutes",
     r"medial-vk follow( REST FRAME...)?$": "names the command; a run of it has meshes",
+    r"medial-vk curvature( BALLS)?$": "names the command; a run of it has balls",
     r"medial-vk VERSION": "is not a command but a comment of the PLY",
     r"medial-vk out/torus.ply": "needs a mesh of 5,000,000 triangles",
     r"yes \| medial-vk": "reads 4 GiB",
@@ -72,7 +73,7 @@ def shown(source, programs):
     """All commands, as pairs of document and command."""
     documents = [source / "README.md", *sorted((source / "docs").glob("*.md"))]
     found = [(d.name, command) for d in documents for command in commands_of_markdown(d.read_text())]
-    for words in ([], ["spheres"], ["distance"], ["clearance"], ["follow"], ["doctor"]):
+    for words in ([], ["spheres"], ["distance"], ["clearance"], ["follow"], ["curvature"], ["doctor"]):
         text = subprocess.run([programs["medial-vk"], *words, "--help"], check=True, capture_output=True, text=True).stdout
         found += [(" ".join([*words, "--help"]), command) for command in commands_of_help(text)]
     for page in sorted((source / "docs").glob("*.1")):
@@ -97,6 +98,9 @@ def outputs_of(words):
     if arguments[:1] == ["follow"]:
         is_named = {"-o", "--output", "--help"} & set(arguments)
         return files if is_named else [*files, pathlib.Path(arguments[1]).stem + ".follow.npz"]
+    if arguments[:1] == ["curvature"]:
+        is_named = {"-o", "--output", "--help"} & set(arguments)
+        return files if is_named else [*files, re.sub(r"\.(medial|spheres|body)$", "", pathlib.Path(arguments[-1]).stem) + ".curvature.ply"]
     meshes = [a for a in arguments if re.search(r"\.(obj|stl|ply)$", a) and a not in files]
     if arguments[:1] == ["spheres"]:
         robots = [a for a in arguments if a.endswith(".urdf") and a not in files]

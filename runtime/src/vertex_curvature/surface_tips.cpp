@@ -6,12 +6,14 @@
 
 #include "base/parallel.h"
 #include "base/point_ops.h"
+#include "medial_vk/bvh.h"
 
 namespace medial_vk {
 namespace {
 
 constexpr std::uint32_t kNowhere = 0xffffffffu;
 constexpr std::size_t kTipsAtATime = 256;
+constexpr std::size_t kMostVertices = 400;  // that are passed in search of tips
 // A tip and its triangle differ in direction by as much as a facet does from the smooth boundary, and by 90 degrees or
 // more where the tip is beyond the edge of a thin part.
 constexpr double kSameSide = 0.3;
@@ -56,8 +58,9 @@ SurfaceTips::SurfaceTips(const IndexedMesh& mesh, std::span<const Ball> balls, c
     if (triangles[at] == kNowhere) continue;
     const TipCurvature& tip = curvature.balls[at / 2].tips[at % 2];
     pairs.emplace_back(triangles[at], static_cast<std::uint32_t>(tips_.size()));
-    tips_.push_back({positions[at], to_eigen(tip.normal), shape_of(tip), std::isnan(tip.error) ? 0 : tip.error,
-                     static_cast<std::uint32_t>(at / 2), static_cast<std::uint8_t>(at % 2)});
+    tips_.push_back({positions[at], balls[at / 2], to_eigen(tip.normal), shape_of(tip),
+                     std::isnan(tip.error) ? 0 : tip.error, static_cast<std::uint32_t>(at / 2),
+                     static_cast<std::uint8_t>(at % 2)});
   }
   by_triangle_ = IndexLists(mesh_.triangles.size(), pairs);
   pairs.clear();
@@ -89,44 +92,60 @@ void SurfaceTips::find_normals() {
 SurfaceWalk::SurfaceWalk(const SurfaceTips& tips)
     : surface_(tips), settled_(tips.mesh().vertices.size()), seen_(tips.tips().size()) {}
 
-void SurfaceWalk::visit(const Front& at, double most) {
+void SurfaceWalk::visit(const Front& at) {
   const MeshView& mesh = surface_.mesh();
   const Point& here = mesh.vertices[at.vertex];
   for (const std::uint32_t triangle : surface_.triangles_at(at.vertex)) {
     for (const std::uint32_t vertex : mesh.triangles[triangle]) {
       if (settled_[vertex] == walk_) continue;
       const double path = at.path + length(mesh.vertices[vertex] - here);
-      if (path > most) continue;
+      if (path > most_) continue;
       front_.push_back({path, vertex});
       std::ranges::push_heap(front_, std::greater<>());
     }
     for (const std::uint32_t tip : surface_.of_triangle(triangle)) {
-      if (seen_[tip] == walk_ || at.path + length(surface_.tips()[tip].position - here) > most) continue;
+      if (has_seen(tip) || at.path + length(surface_.tips()[tip].position - here) > most_) continue;
       seen_[tip] = walk_;
       tips_.push_back(tip);
     }
   }
 }
 
-double SurfaceWalk::from(std::uint32_t vertex, double least, double most, std::size_t enough) {
+void SurfaceWalk::begin(std::uint32_t vertex, double most) {
   ++walk_;
+  most_ = most;
   tips_.clear();
   vertices_.clear();
   front_.assign(1, {0, vertex});
-  double path = 0;
-  while (!front_.empty()) {
+}
+
+bool SurfaceWalk::step(double limit) {
+  while (!front_.empty() && front_.front().path <= limit) {
     std::ranges::pop_heap(front_, std::greater<>());
     const Front at = front_.back();
     front_.pop_back();
     if (settled_[at.vertex] == walk_) continue;
-    if (at.path > least && tips_.size() >= enough) break;
-    path = at.path;
     settled_[at.vertex] = walk_;
     vertices_.push_back(at.vertex);
-    visit(at, most);
+    visit(at);
+    return true;
   }
-  std::ranges::sort(tips_);
-  return front_.empty() ? most : std::max(path, least);
+  return false;
+}
+
+void SurfaceWalk::go_to(double path) {
+  while (step(path)) {
+  }
+}
+
+void SurfaceWalk::find_tips(std::size_t count) {
+  while (tips_.size() < count && vertices_.size() < kMostVertices && step(most_)) {
+  }
+}
+
+void SurfaceWalk::find_vertices(std::size_t count) {
+  while (vertices_.size() < count && step(most_)) {
+  }
 }
 
 }  // namespace medial_vk

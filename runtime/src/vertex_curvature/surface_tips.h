@@ -18,6 +18,7 @@ inline Point to_point(const Eigen::Vector3d& p) { return {p[0], p[1], p[2]}; }
 /// A tip at which both curvatures are known.
 struct SurfaceTip {
   Point position;  ///< On the mesh.
+  Ball sphere;     ///< The ball itself.
   Eigen::Vector3d normal;
   Eigen::Matrix3d shape;  ///< The shape operator in space; 0 along the normal.
   double error = 0;       ///< Of the curvatures; 0 if there is no estimate.
@@ -77,11 +78,17 @@ class SurfaceWalk {
  public:
   explicit SurfaceWalk(const SurfaceTips& tips);
 
-  /// Goes on until `enough` tips are found and the path is longer than `least`, or it is longer than `most`. Returns
-  /// the length of the longest path that was followed in full.
-  double from(std::uint32_t vertex, double least, double most, std::size_t enough);
+  /// Begins at a vertex. Tips beyond paths of the length `most` are not collected.
+  void begin(std::uint32_t vertex, double most);
+  /// Goes on along all paths up to this length.
+  void go_to(double path);
+  /// Goes on until so many tips are found.
+  void find_tips(std::size_t count);
+  /// Goes on until so many vertices are passed.
+  void find_vertices(std::size_t count);
 
-  const std::vector<std::uint32_t>& tips() const { return tips_; }          ///< By number.
+  bool has_seen(std::uint32_t tip) const { return seen_[tip] == walk_; }
+  const std::vector<std::uint32_t>& tips() const { return tips_; }
   const std::vector<std::uint32_t>& vertices() const { return vertices_; }  ///< The nearest first.
 
  private:
@@ -91,10 +98,13 @@ class SurfaceWalk {
     bool operator>(const Front& other) const { return path != other.path ? path > other.path : vertex > other.vertex; }
   };
 
-  void visit(const Front& at, double most);
+  /// Passes the next vertex, if its path is at most `limit`; whether it did.
+  bool step(double limit);
+  void visit(const Front& at);
 
   const SurfaceTips& surface_;
   std::uint32_t walk_ = 0;
+  double most_ = 0;
   std::vector<std::uint32_t> settled_, seen_;  // by vertex, by tip: the number of the walk
   std::vector<std::uint32_t> tips_, vertices_;
   std::vector<Front> front_;

@@ -10,13 +10,14 @@
 namespace medial_vk {
 namespace {
 
-constexpr double kMostGap = 0.25;        // of the radius: the ball does not touch at a vertex farther away
-constexpr double kReach = 3;             // spacings around a ball that tell whether it is at a rim
-constexpr double kRimOffset = 0.2;       // of kReach: the offset of the centroid; at the rim of a half-plane it is 0.42
+constexpr double kMostGap = 0.25;   // of the radius: the ball does not touch at a vertex farther away
+constexpr double kReach = 3;        // spacings around a ball: near ones
+constexpr double kRimReach = 6;     // spacings around a ball that tell whether it is at a rim, and where out is
+constexpr double kRimOffset = 0.2;  // of kRimReach: the offset of the centroid; at the rim of a half-plane it is 0.42
 constexpr double kSmoothJump = 1.0 / 3;  // of 1 / r: how much the curvature changes from a tip to a smooth cap, at most
-constexpr double kAngleAbove = 1.5;      // times the least object angle: the sheet ends here
+constexpr double kAngleAbove = 1.2;      // times the least object angle: the sheet ends here
 constexpr double kWideCap = 1.2;         // radians: half-angles at which tips say nothing of the bend of the rim
-constexpr std::size_t kLeastRows = 5;
+constexpr std::size_t kLeastRows = 9;
 
 bool has_normals(const BallCurvature& ball) {
   return !std::isnan(ball.tips[0].normal[0]) && !std::isnan(ball.tips[1].normal[0]);
@@ -120,7 +121,7 @@ bool TouchingBalls::find_rim(std::uint32_t ball, Rim& rim) const {
   const BallCurvature& known = curvature_.balls[ball];
   const Eigen::Vector3d a = to_eigen(known.tips[0].normal), b = to_eigen(known.tips[1].normal);
   rim.across = (a - b).normalized();
-  const double reach = kReach * curvature_.spacing;
+  const double reach = kRimReach * curvature_.spacing;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   std::size_t count = 0;
   grid_.visit_within(balls_[ball].centre, reach, [&](std::uint32_t other, double squared) {
@@ -132,6 +133,9 @@ bool TouchingBalls::find_rim(std::uint32_t ball, Rim& rim) const {
   const Eigen::Vector3d outward = -(sum - sum.dot(rim.across) * rim.across) / static_cast<double>(count);
   if (!(outward.norm() > kRimOffset * reach)) return false;
   rim.outward = outward.normalized();
+  // Where spokes lean, the arc from one tip to the other one is in the plane of both.
+  const Eigen::Vector3d mean = a + b;
+  if (mean.norm() > 2 * std::cos(kWideCap) && mean.dot(outward) > 0) rim.outward = mean.normalized();
   rim.along = rim.outward.cross(rim.across);
   rim.upper = std::atan2(a.dot(rim.across), a.dot(rim.outward));
   rim.lower = std::atan2(b.dot(rim.across), b.dot(rim.outward));
@@ -156,6 +160,15 @@ void TouchingBalls::find_tips(std::uint32_t ball, Rim& rim) const {
   });
 }
 
+/// Whether the sheet has no other ball beyond this one: the object angle, as it decreases along the sheet, is well
+/// above the least one even a spacing farther out.
+bool TouchingBalls::ends_here(const Rim& rim, double radius, double across) const {
+  const double half = (rim.upper - rim.lower) / 2;
+  const double turn = across > 0 ? across / std::max(1 - radius * across, 1e-3) : 0;  // of a spoke along the sheet
+  const double square = half * half - 2 * half * curvature_.spacing * std::sin(half) * turn;
+  return square > kAngleAbove * kAngleAbove * least_angle_ * least_angle_;
+}
+
 TouchingBalls::Bends TouchingBalls::across_rim(const Rim& rim, double radius, double share) const {
   const double sphere = 1 / radius, blur = curvature_.spacing / (radius * radius);
   std::array<double, 2> sides = {};
@@ -171,75 +184,84 @@ TouchingBalls::Bends TouchingBalls::across_rim(const Rim& rim, double radius, do
   }
   if (count == 1) sides[0] = sides[1] = sides[0] + sides[1];
   const double even = (sides[0] + sides[1]) / 2, odd = (sides[0] - sides[1]) / 2;
-  const bool ends = (rim.upper - rim.lower) / 2 > kAngleAbove * least_angle_;
+  const bool ends = ends_here(rim, radius, even + sphere);
+  const double depth = 0.5 * (1 - std::fabs(share)) * (rim.upper - rim.lower) * radius;
   if (count == 0) return {sphere, ends ? blur : sphere};
-  if (std::fabs(even) > kSmoothJump * sphere) {
-    const double depth = 0.5 * (1 - std::fabs(share)) * (rim.upper - rim.lower) * radius;
-    return {sphere, ends && depth > 0.5 * curvature_.spacing ? blur : std::fabs(even)};
-  }
+  if (ends) return {sphere, depth > 0.5 * curvature_.spacing ? blur : std::max(blur, std::fabs(even))};
+  if (std::fabs(even) > kSmoothJump * sphere) return {sphere, std::fabs(even)};
   // Legendre polynomials: the curve keeps its end points and its tangents there to first order.
   const double p2 = (3 * share * share - 1) / 2, p3 = (5 * share * share - 3) * share / 2;
   return {sphere + even * p2 + odd * p3, errors + std::fabs(even) / 2 + std::fabs(odd)};
 }
 
-TouchingBalls::Bends TouchingBalls::along_rim(const Rim& rim, double radius, const Eigen::Vector3d& u, double across,
-                                              std::span<const Point> around) const {
-  if ((rim.upper - rim.lower) / 2 < kWideCap && (rim.tips[0] != nullptr || rim.tips[1] != nullptr)) {
-    // Of the tube around the rim, 1 / kappa = r + 1 / g, where g is linear in the normal: docs/theory.md.
-    Eigen::Matrix2d rows = Eigen::Matrix2d::Zero();
-    Eigen::Vector2d g = Eigen::Vector2d::Zero();
-    double errors = 0, mean = 0, count = 0;
-    for (int side = 0; side < 2; ++side) {
-      if (rim.tips[side] == nullptr) continue;
-      const TipCurvature& tip = *rim.tips[side];
-      const Eigen::Vector3d normal = to_eigen(tip.normal), t = across_to(rim.along, normal);
-      const double kappa = t.dot(shape_of(tip) * t);
-      if (radius * kappa > 0.95) return {1 / radius, 1 / radius};
-      rows.row(side) << normal.dot(rim.outward), normal.dot(rim.across);
-      g[side] = kappa / (1 - radius * kappa);
-      errors = std::max(errors, std::isnan(tip.error) ? 0 : tip.error);
-      mean += kappa;
-      ++count;
-    }
-    mean /= count;
-    Eigen::Vector2d bend;
-    if (count < 2) {
-      const Eigen::RowVector2d row = rows.row(rim.tips[0] != nullptr ? 0 : 1);
-      bend = {g.sum() / row[0], 0};
-    } else {
-      bend = rows.inverse() * g;
-    }
-    const double at_u = bend[0] * u.dot(rim.outward) + bend[1] * u.dot(rim.across);
-    const double kappa = at_u / (1 + radius * at_u);
-    if (1 + radius * at_u > 0) return {kappa, errors + std::fabs(kappa - mean)};
-    return {mean, 1 / radius};
+TouchingBalls::Bends TouchingBalls::along_rim(const Rim& rim, double radius, const Eigen::Vector3d& u) const {
+  // Of the tube around the rim, 1 / kappa = r + 1 / g, where g is linear in the normal: docs/theory.md.
+  const Bends unknown = {0, 1 / radius};
+  Eigen::Matrix2d rows = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d g = Eigen::Vector2d::Zero();
+  double errors = 0, mean = 0, count = 0;
+  for (int side = 0; side < 2; ++side) {
+    if (rim.tips[side] == nullptr) continue;
+    const TipCurvature& tip = *rim.tips[side];
+    const Eigen::Vector3d normal = to_eigen(tip.normal), t = across_to(rim.along, normal);
+    const double kappa = t.dot(shape_of(tip) * t);
+    if (radius * kappa > 0.95) return unknown;
+    rows.row(side) << normal.dot(rim.outward), normal.dot(rim.across);
+    g[side] = kappa / (1 - radius * kappa);
+    errors = std::max(errors, std::isnan(tip.error) ? 0 : tip.error);
+    mean += kappa;
+    ++count;
   }
-  // From the heights of vertices on the cap, by least squares: two tilts, and the curvature along the rim.
-  const Eigen::Vector3d t = across_to(rim.along, u), w = t.cross(u);
+  if (count == 0) return unknown;
+  mean /= count;
+  const Eigen::Vector2d bend =
+      count > 1 ? Eigen::Vector2d(rows.inverse() * g) : Eigen::Vector2d(g.sum() / rows.col(0).sum(), 0);
+  const double at_u = bend[0] * u.dot(rim.outward) + bend[1] * u.dot(rim.across);
+  if (!(1 + radius * at_u > 0.05)) return unknown;
+  const double kappa = at_u / (1 + radius * at_u);
+  return {kappa, errors + std::fabs(kappa - mean)};
+}
+
+/// The heights of vertices on the cap as a polynomial of degree 2. Of its curvatures the lesser one is that along the
+/// rim; the greater one is 1 / radius.
+TouchingBalls::Bends TouchingBalls::bend_of_vertices(const Rim& rim, double radius, const Eigen::Vector3d& u,
+                                                     std::span<const Point> around, Eigen::Vector3d& along) const {
+  const Eigen::Vector3d t = across_to(rim.along, u);
+  Eigen::Vector3d w = t.cross(u);
+  if (w.dot(rim.across) * u.dot(rim.outward) < w.dot(rim.outward) * u.dot(rim.across)) w = -w;
   const double angle = std::atan2(u.dot(rim.across), u.dot(rim.outward));
-  const double sense = w.dot(rim.across) * u.dot(rim.outward) - w.dot(rim.outward) * u.dot(rim.across) > 0 ? 1 : -1;
-  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  using Row = Eigen::Matrix<double, 5, 1>;
+  Eigen::Matrix<double, 5, 5> moments = Eigen::Matrix<double, 5, 5>::Zero();
+  Row right = Row::Zero();
   double squares = 0;
   std::size_t count = 0;
   for (const Point& q : around.subspan(1)) {
     const Eigen::Vector3d offset = to_eigen(q - around[0]);
-    const double a = offset.dot(w), b = offset.dot(t), turn = angle + sense * a / radius;
-    if (std::fabs(a) > 0.5 * radius || turn < rim.lower || turn > rim.upper || offset.dot(u) < -radius) continue;
-    const Eigen::Vector3d row(a, b, -0.5 * b * b);
-    const double height = offset.dot(u) + 0.5 * across * a * a;
+    const double a = offset.dot(w) / radius, b = offset.dot(t) / radius, height = offset.dot(u) / radius;
+    if (std::fabs(a) > 0.5 || height < -0.5 || angle + a < rim.lower || angle + a > rim.upper) continue;
+    Row row;
+    row << a, b, -0.5 * a * a, -a * b, -0.5 * b * b;
+    // Beyond degree 2, a circle across the rim.
+    const double value = height + (1 - 0.5 * a * a - std::sqrt(1 - a * a));
     moments += row * row.transpose();
-    right += height * row;
-    squares += height * height;
+    right += value * row;
+    squares += value * value;
     ++count;
   }
   if (count < kLeastRows) return {0, 1 / radius};
-  const Eigen::Matrix3d inverse = moments.inverse();
-  const Eigen::Vector3d found = inverse * right;
-  const double residual = std::max(0.0, squares - found.dot(right)) / static_cast<double>(count - 3);
-  const double error = 2 * std::sqrt(residual * inverse(2, 2));
-  if (!(error < 1 / radius)) return {0, 1 / radius};  // nor if it is NaN: vertices on a line
-  return {found[2], error};
+  const Eigen::Matrix<double, 5, 5> inverse = moments.inverse();
+  const Row found = inverse * right;
+  Eigen::Matrix2d form;
+  form << found[2], found[3], found[3], found[4];
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(0.5 * (form + form.transpose()));
+  const double residual = std::max(0.0, squares - found.dot(right)) / static_cast<double>(count - 5);
+  const double error = 2 * std::sqrt(residual * inverse.diagonal().tail<3>().maxCoeff());
+  if (!(error < 1) || !(axes.eigenvalues()[0] < 1 + error)) return {0, 1 / radius};  // nor if it is NaN
+  if (axes.eigenvalues()[1] - axes.eigenvalues()[0] > 2 * error) {
+    along = (w * axes.eigenvectors()(0, 0) + t * axes.eigenvectors()(1, 0)).normalized();
+  }
+  // What the ball says of the greater one is a test of the heights.
+  return {axes.eigenvalues()[0] / radius, (error + std::fabs(axes.eigenvalues()[1] - 1)) / radius};
 }
 
 Touch TouchingBalls::cap_of_rim(std::uint32_t ball, const Eigen::Vector3d& u, double gap,
@@ -254,19 +276,12 @@ Touch TouchingBalls::cap_of_rim(std::uint32_t ball, const Eigen::Vector3d& u, do
   out.ball = ball;
   out.at.normal = u;
   out.depth = radius * std::min(angle - rim.lower, rim.upper - angle);
-  // Beside the tube around the rim: where the rim turns sharply, the ball touches in more than an arc.
-  const double level = 0.5 * (to_eigen(curvature_.balls[ball].tips[0].normal).dot(rim.along) +
-                              to_eigen(curvature_.balls[ball].tips[1].normal).dot(rim.along));
-  if (std::fabs(u.dot(rim.along) - level) > std::max(0.2, 2 * curvature_.spacing / radius)) {
-    out.at.shape = (Eigen::Matrix3d::Identity() - u * u.transpose()) / radius;
-    out.at.error = (curvature_.spacing + gap) / square;
-    return out;
-  }
   find_tips(ball, rim);
-  const double share = 2 * (angle - rim.lower) / (rim.upper - rim.lower) - 1;
+  const double half = (rim.upper - rim.lower) / 2, share = (angle - rim.lower) / half - 1;
   const Bends across = across_rim(rim, radius, share);
-  const Bends along = along_rim(rim, radius, u, across.value, around);
-  const Eigen::Vector3d t = across_to(rim.along, u), w = t.cross(u);
+  Eigen::Vector3d t = across_to(rim.along, u);
+  const Bends along = half < kWideCap ? along_rim(rim, radius, u) : bend_of_vertices(rim, radius, u, around, t);
+  const Eigen::Vector3d w = t.cross(u);
   out.at.shape = across.value * w * w.transpose() + along.value * t * t.transpose();
   out.at.error = std::max(across.error, along.error) + gap / square;
   return out;

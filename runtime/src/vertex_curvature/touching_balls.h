@@ -9,7 +9,7 @@
 #include "medial_vk/vertex_curvature.h"
 #include "sphere_fits/quality/nearest_ball_tree.h"
 #include "vertex_curvature/surface_tips.h"
-#include "vertex_curvature/tip_average.h"
+#include "vertex_curvature/tip_means.h"
 
 namespace medial_vk {
 
@@ -45,9 +45,11 @@ class TouchingBalls {
   void find_tips(std::uint32_t ball, Rim& rim) const;
   Touch cap_of_curve(std::uint32_t ball, const Eigen::Vector3d& u, double gap) const;
   Touch cap_of_rim(std::uint32_t ball, const Eigen::Vector3d& u, double gap, std::span<const Point> around) const;
+  bool ends_here(const Rim& rim, double radius, double across) const;
   Bends across_rim(const Rim& rim, double radius, double share) const;
-  Bends along_rim(const Rim& rim, double radius, const Eigen::Vector3d& u, double across,
-                  std::span<const Point> around) const;
+  Bends along_rim(const Rim& rim, double radius, const Eigen::Vector3d& u) const;
+  Bends bend_of_vertices(const Rim& rim, double radius, const Eigen::Vector3d& u, std::span<const Point> around,
+                         Eigen::Vector3d& along) const;
 
   std::span<const Ball> balls_;
   const BoundaryCurvature& curvature_;

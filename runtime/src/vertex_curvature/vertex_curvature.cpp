@@ -9,19 +9,26 @@
 #include "base/parallel.h"
 #include "base/point_ops.h"
 #include "vertex_curvature/surface_tips.h"
-#include "vertex_curvature/tip_average.h"
+#include "vertex_curvature/tip_means.h"
 #include "vertex_curvature/touching_balls.h"
 #include "vertex_curvature/voronoi_means.h"
 
 namespace medial_vk {
 namespace {
 
-constexpr double kMost = 1e18;                         // as of measure_curvature()
-constexpr double kLeastWindow = 2.5, kMostWindow = 8;  // spacings
-constexpr double kDetour = 1.5;  // paths along edges are longer than the distance, by up to a third or so
-constexpr std::size_t kEnoughTips = 12;
+constexpr double kMost = 1e18;    // as of measure_curvature()
+constexpr double kMostPath = 12;  // spacings, along edges
+constexpr std::size_t kCapVertices = 40;
 constexpr std::size_t kVerticesAtATime = 64;
 constexpr double kUncertainError = 0.25;  // as of measure_curvature()
+
+// Radians, between the normals of the smooth boundary and of the mesh: at an edge of the solid the latter is that of
+// neither face.
+constexpr double kMostTurn = 0.35, kClearTurn = 0.1;
+
+double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
 
 bool is_moderate(const Point& p) {
   return std::ranges::all_of(p, [](double x) { return std::fabs(x) <= kMost; });
@@ -65,38 +72,53 @@ void set_shape(const PointShape& shape, VertexCurvature& out) {
 /// The vertices of a mesh, one after the other; one object for each thread.
 class AlongSurface {
  public:
-  AlongSurface(const SurfaceTips& surface, const TouchingBalls& touching, std::span<const Ball> balls, double spacing)
-      : surface_(surface), touching_(touching), balls_(balls), spacing_(spacing), walk_(surface) {}
+  AlongSurface(const SurfaceTips& surface, const TipMeans& means, const TouchingBalls& touching, double spacing)
+      : surface_(surface), means_(means), touching_(touching), spacing_(spacing), walk_(surface) {}
 
   VertexCurvature at(std::uint32_t vertex) {
     const Point& p = surface_.mesh().vertices[vertex];
-    const double window =
-        walk_.from(vertex, kDetour * kLeastWindow * spacing_, kDetour * kMostWindow * spacing_, kEnoughTips) / kDetour;
-    const TipAverage average =
-        average_tips(surface_.tips(), walk_.tips(), p, surface_.normal(vertex), std::max(window, 0.0));
-    if (average.is_found && !average.is_outside) return of_tips(average);
+    walk_.begin(vertex, kMostPath * spacing_);
+    const TipMean mean = means_.at(p, surface_.normal(vertex), walk_);
+    const Eigen::Vector3d normal = to_eigen(surface_.normal(vertex));
+    const bool agrees = mean.is_found && angle_between(mean.at.normal, normal) < kMostTurn;
+    VertexCurvature of_mean = mean.is_found ? unknown(mean) : VertexCurvature{};
+    if (agrees) of_mean = of_tips(mean);
+    if (is_known(of_mean.state) && !mean.is_outside) return of_mean;
+    walk_.find_vertices(kCapVertices);
     around_.clear();
     for (const std::uint32_t near : walk_.vertices()) around_.push_back(surface_.mesh().vertices[near]);
-    if (around_.empty()) around_.push_back(p);
     const Touch touch = touching_.at(p, around_);
-    const bool is_nearer = touch.depth > 0.5 * spacing_ || !average.is_found || touch.at.error < average.at.error;
-    if (touch.state != CurvatureState::kFew && is_nearer) return of_touch(touch);
-    return average.is_found ? of_tips(average) : VertexCurvature{};
+    if (touch.state == CurvatureState::kFew) {
+      // Beyond the last tips, the normal of the mesh tells whether the boundary goes on as they say.
+      const bool goes_on = agrees && angle_between(mean.at.normal, normal) < kClearTurn;
+      return goes_on || !mean.is_outside || !agrees ? of_mean : unknown(mean);
+    }
+    if (!is_known(of_mean.state) || touch.depth > 0.5 * spacing_) return of_touch(touch);
+    // At the border of a cap: the one whose normal is that of the mesh, or the better one.
+    const double off = angle_between(mean.at.normal, normal) - angle_between(touch.at.normal, normal);
+    if (std::fabs(off) > kClearTurn) return off > 0 ? of_touch(touch) : of_mean;
+    return touch.at.error < mean.at.error ? of_touch(touch) : of_mean;
   }
 
  private:
-  VertexCurvature of_tips(const TipAverage& average) const {
-    const SurfaceTip& tip = surface_.tips()[average.heaviest];
+  VertexCurvature of_tips(const TipMean& mean) const {
+    const SurfaceTip& tip = surface_.tips()[mean.heaviest];
     VertexCurvature out;
     out.ball = tip.ball;
     out.tip = tip.side;
     VertexCurvature known = out;
-    set_shape(average.at, known);
-    known.state = average.is_cut ? CurvatureState::kCut : CurvatureState::kKnown;
+    set_shape(mean.at, known);
+    known.state = mean.is_cut ? CurvatureState::kCut : CurvatureState::kKnown;
     const double greater = std::max(std::fabs(known.kappa[0]), std::fabs(known.kappa[1]));
-    if (known.error <= kUncertainError * std::max(greater, 0.1 / balls_[tip.ball].radius)) return known;
+    return known.error <= kUncertainError * std::max(greater, 0.1 / tip.sphere.radius) ? known : unknown(mean);
+  }
+
+  VertexCurvature unknown(const TipMean& mean) const {
+    VertexCurvature out;
     out.state = CurvatureState::kUncertain;
-    out.normal = known.normal;
+    out.normal = to_point(mean.at.normal);
+    out.ball = surface_.tips()[mean.heaviest].ball;
+    out.tip = surface_.tips()[mean.heaviest].side;
     return out;
   }
 
@@ -114,8 +136,8 @@ class AlongSurface {
   }
 
   const SurfaceTips& surface_;
+  const TipMeans& means_;
   const TouchingBalls& touching_;
-  std::span<const Ball> balls_;
   double spacing_;
   SurfaceWalk walk_;
   std::vector<Point> around_;
@@ -134,12 +156,13 @@ std::vector<VertexCurvature> assign(const IndexedMesh& mesh, std::span<const Bal
   if (options.assignment == CurvatureAssignment::kVoronoi) {
     return voronoi_means(surface, curvature, options.threads, watch);
   }
+  const TipMeans means(surface, curvature.spacing);
   const TouchingBalls touching(balls, curvature, options.object_angle);
   const std::size_t count = surface.mesh().vertices.size();
   std::vector<VertexCurvature> out(count);
   parallel_blocks(count, (count + 255) / 256 + kVerticesAtATime, options.threads,
                   [&](std::size_t begin, std::size_t end) {
-                    AlongSurface search(surface, touching, balls, curvature.spacing);
+                    AlongSurface search(surface, means, touching, curvature.spacing);
                     for (std::size_t v = begin; v < end; ++v) {
                       watch.check();
                       out[v] = search.at(static_cast<std::uint32_t>(v));

@@ -19,6 +19,8 @@ Usage:
                                medial-vk clearance --help
   medial-vk follow [options] REST FRAME...   balls inside a mesh that deforms,
                                or around it: medial-vk follow --help
+  medial-vk curvature [options] BALLS   how the boundary bends, from its medial
+                               balls: medial-vk curvature --help
   medial-vk doctor [options]   whether it works on this machine, and what is
                                missing: medial-vk doctor --help
 

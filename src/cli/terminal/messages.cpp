@@ -123,6 +123,8 @@ std::string_view words_of(const ParameterWords& parameter, Command command) {
       return parameter.clearance.empty() ? parameter.distance : parameter.clearance;
     case Command::kFollow:
       return parameter.follow;
+    case Command::kCurvature:
+      return {};  // messages about curvature name no parameter
     case Command::kDoctor:
       return parameter.doctor;
   }
@@ -142,6 +144,8 @@ const char* name_of(Command command) {
       return "medial-vk clearance";
     case Command::kFollow:
       return "medial-vk follow";
+    case Command::kCurvature:
+      return "medial-vk curvature";
     case Command::kDoctor:
       return "medial-vk doctor";
   }

@@ -21,6 +21,7 @@ enum class Command {
   kDistance,      ///< medial-vk distance
   kClearance,     ///< medial-vk clearance
   kFollow,        ///< medial-vk follow
+  kCurvature,     ///< medial-vk curvature
   kDoctor,        ///< medial-vk doctor
 };
 

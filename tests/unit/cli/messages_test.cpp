@@ -126,6 +126,7 @@ TEST(Messages, AUsageErrorPointsAtTheHelpOfItsCommand) {
   EXPECT_EQ(printed(Command::kRobotSpheres), "medial-vk: no\nTry medial-vk spheres --help.\n");
   EXPECT_EQ(printed(Command::kDistance), "medial-vk: no\nTry medial-vk distance --help.\n");
   EXPECT_EQ(printed(Command::kClearance), "medial-vk: no\nTry medial-vk clearance --help.\n");
+  EXPECT_EQ(printed(Command::kCurvature), "medial-vk: no\nTry medial-vk curvature --help.\n");
   EXPECT_EQ(printed(Command::kDoctor), "medial-vk: no\nTry medial-vk doctor --help.\n");
 }
 

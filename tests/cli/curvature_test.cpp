@@ -1,0 +1,158 @@
+// `medial-vk curvature` from outside: exit codes, streams, files. Everything here runs without a Vulkan device.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tool_test.h"
+
+namespace medial_vk {
+namespace {
+
+using test::read_file;
+using test::ScratchFolder;
+using test::ToolResult;
+using test::write_file;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr double kInner = 1, kOuter = 1.2;
+
+/// A table of the balls of a pipe's wall, around z; `spokes`: with their columns.
+std::string wall_table(bool spokes) {
+  std::string table =
+      spokes ? "x,y,z,radius,spoke_a_x,spoke_a_y,spoke_a_z,spoke_b_x,spoke_b_y,spoke_b_z\n" : "radius,z,note,x,y\n";
+  constexpr int kAround = 100, kAlong = 16;
+  constexpr double kMiddle = (kInner + kOuter) / 2, kRadius = (kOuter - kInner) / 2;
+  for (int i = 0; i < kAround; ++i) {
+    for (int j = 0; j < kAlong; ++j) {
+      const double angle = 2 * std::numbers::pi * (i + 0.5 * (j % 2)) / kAround, z = 0.06 * j;
+      const double x = std::cos(angle), y = std::sin(angle);
+      std::ostringstream line;
+      line.precision(17);
+      if (spokes) {
+        line << kMiddle * x << ',' << kMiddle * y << ',' << z << ',' << kRadius << ',' << x << ',' << y << ",0," << -x
+             << ',' << -y << ",0\n";
+      } else {
+        line << kRadius << ',' << z << ",7," << kMiddle * x << ',' << kMiddle * y << '\n';
+      }
+      table += line.str();
+    }
+  }
+  return table;
+}
+
+class CurvatureCommand : public testing::Test {
+ protected:
+  ToolResult run(std::vector<std::string> arguments, const std::string& standard_input = {}) {
+    arguments.insert(arguments.begin(), "curvature");
+    return test::Tool({.arguments = arguments, .folder = scratch_.path(""), .standard_input = standard_input}).wait();
+  }
+
+  ScratchFolder scratch_;
+};
+
+/// The middle of the values of one curvature at the tips outside, or inside.
+double median_of(const nlohmann::json& report, std::size_t k, bool outside) {
+  std::vector<double> values;
+  for (const auto& ball : report["balls"]) {
+    for (const auto& tip : ball["tips"]) {
+      if (tip["kappa"][k].is_null()) continue;
+      const double along = tip["spoke"][0].get<double>() * ball["centre"][0].get<double>() +
+                           tip["spoke"][1].get<double>() * ball["centre"][1].get<double>();
+      if ((along > 0) == outside) values.push_back(tip["kappa"][k].get<double>());
+    }
+  }
+  EXPECT_GT(values.size(), 500u);
+  std::ranges::sort(values);
+  return values.empty() ? 0 : values[values.size() / 2];
+}
+
+TEST_F(CurvatureCommand, MeasuresAnybodysBalls) {
+  write_file(scratch_.path("wall.csv"), wall_table(false));
+  const ToolResult result = run({"wall.csv", "-o", "wall.json", "--report", "report.json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, IsEmpty());
+  EXPECT_THAT(result.err, HasSubstr("wall.csv: 1,600 balls"));
+  EXPECT_THAT(result.err, HasSubstr("kappa 1"));
+  const auto values = nlohmann::json::parse(read_file(scratch_.path("wall.json")));
+  ASSERT_EQ(values["balls"].size(), 1600u);
+  // What a window does not see of a circle is of the fourth order, below a thousandth here.
+  EXPECT_NEAR(median_of(values, 0, true), 1 / kOuter, 1e-3);
+  EXPECT_NEAR(median_of(values, 1, true), 0, 1e-3);
+  EXPECT_NEAR(median_of(values, 0, false), 0, 1e-3);
+  EXPECT_NEAR(median_of(values, 1, false), -1 / kInner, 1e-3);
+  const auto report = nlohmann::json::parse(read_file(scratch_.path("report.json")));
+  EXPECT_EQ(report["balls"], 1600);
+  std::uint64_t tips = 0;
+  for (const auto& [state, count] : report["tips"].items()) tips += count.get<std::uint64_t>();
+  EXPECT_EQ(tips, 3200u);
+  EXPECT_EQ(report["kappa_1"]["median"].is_number(), true);
+}
+
+TEST_F(CurvatureCommand, WritesTablesAndNamesFiles) {
+  const ToolResult table = run({"-", "-o", "-", "-q"}, wall_table(false));
+  ASSERT_EQ(table.exit_code, 0) << table.err;
+  EXPECT_THAT(table.err, IsEmpty());
+  EXPECT_THAT(table.out, testing::StartsWith("ball,tip,state,x,y,z,radius,spoke_x,"));
+  EXPECT_EQ(std::ranges::count(table.out, '\n'), 1 + 2 * 1600);
+  write_file(scratch_.path("wall.medial.csv"), wall_table(false));
+  ASSERT_EQ(run({"wall.medial.csv", "-q"}).exit_code, 0);
+  ASSERT_EQ(run({"wall.medial.csv", "-q", "-o", "w.npz"}).exit_code, 0);
+  EXPECT_THAT(scratch_.names(), ElementsAre("w.npz", "wall.curvature.ply", "wall.medial.csv"));
+  const std::string ply = read_file(scratch_.path("wall.curvature.ply"));
+  EXPECT_THAT(ply, HasSubstr("element vertex 3200\n"));
+  // 8 doubles, 10 floats, an index and two bytes for each tip.
+  const std::size_t end = ply.find("end_header\n") + 11;
+  EXPECT_EQ(ply.size() - end, 3200u * (8 * 8 + 10 * 4 + 4 + 2));
+}
+
+TEST_F(CurvatureCommand, TheMethodOfTheSourceNeedsSpokes) {
+  write_file(scratch_.path("with.csv"), wall_table(true));
+  write_file(scratch_.path("without.csv"), wall_table(false));
+  const ToolResult with = run({"with.csv", "--method", "source", "-o", "s.json", "--spacing", "0.065"});
+  ASSERT_EQ(with.exit_code, 0) << with.err;
+  const auto values = nlohmann::json::parse(read_file(scratch_.path("s.json")));
+  EXPECT_EQ(values["method"], "source");
+  // Chords of six spacings: 1 - cos of 0.18 radians is 1.6 %.
+  EXPECT_NEAR(median_of(values, 0, true), 1 / kOuter, 0.05);
+  const ToolResult without = run({"without.csv", "--method", "source"});
+  EXPECT_EQ(without.exit_code, 3);
+  EXPECT_THAT(without.err, HasSubstr("without.csv: there are no spokes"));
+  EXPECT_THAT(scratch_.names(), testing::Not(testing::Contains("without.curvature.ply")));
+}
+
+TEST_F(CurvatureCommand, SaysWhatIsWrong) {
+  write_file(scratch_.path("bad.csv"), "x,y,z,radius\n0,0,0,1\n1,0,0,-1\n");
+  const ToolResult bad = run({"bad.csv"});
+  EXPECT_EQ(bad.exit_code, 3);
+  EXPECT_THAT(bad.err, HasSubstr("bad.csv:3: the radius -1 is not positive"));
+  write_file(scratch_.path("none.csv"), "x,y,z,radius\n");
+  const ToolResult none = run({"none.csv"});
+  EXPECT_EQ(none.exit_code, 3);
+  EXPECT_THAT(none.err, HasSubstr("there is no ball"));
+  write_file(scratch_.path("turned.csv"),
+             "x,y,z,radius,spoke_a_x,spoke_a_y,spoke_a_z,spoke_b_x,spoke_b_y,spoke_b_z\n0,0,0,1,2,0,0,0,1,0\n");
+  EXPECT_THAT(run({"turned.csv"}).err, HasSubstr("turned.csv:2: a spoke is no unit vector"));
+  for (const std::vector<std::string>& wrong : std::vector<std::vector<std::string>>{{},
+                                                                                     {"bad.csv", "-o", "c.glb"},
+                                                                                     {"bad.csv", "--step", "4"},
+                                                                                     {"bad.csv", "--smooth"},
+                                                                                     {"bad.csv", "--method", "other"},
+                                                                                     {"bad.csv", "-o", "bad.csv"},
+                                                                                     {"bad.csv", "-q", "-v"}}) {
+    const ToolResult result = run(wrong);
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("Try medial-vk curvature --help."));
+  }
+}
+
+}  // namespace
+}  // namespace medial_vk
