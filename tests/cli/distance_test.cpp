@@ -1,10 +1,10 @@
 // `medial-vk distance` from outside: exit codes, streams, files. Everything here runs without a Vulkan device.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <signal.h>
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <sstream>
 #include <string>
 #include <thread>
