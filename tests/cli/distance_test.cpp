@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -273,6 +276,24 @@ TEST_F(DistanceCommand, UnreadableFilesAre3AndSayWhy) {
   fails_with({"box.obj", "box.obj", "--poses", "-", "-o", "d.csv"}, "medial-vk: stdin: there is no pose\n");
   // Whether a file is written depends on all poses.
   EXPECT_THAT(folder_.names(), ElementsAre("apart.obj", "bad.csv", "bad.obj", "box.obj", "inner.obj", "poses.csv"));
+}
+
+// Each of the poses takes a tenth of a second or more, since all pairs of triangles are about as far apart, and
+// progress is shown only after thousands.
+TEST_F(DistanceCommand, ASignalEndsItWithinPoses) {
+  test::write_file(path("outer.obj"), test::to_obj(test::make_sphere(1, 1500)));
+  test::write_file(path("centre.obj"), test::to_obj(test::make_sphere(1e-6, 1500)));
+  std::string poses = "x,y,z\n";
+  for (int i = 0; i < 4000; ++i) poses += "0,0,0\n";
+  test::write_file(path("many.csv"), poses);
+  test::Tool tool(call({"distance", "outer.obj", "centre.obj", "--surfaces", "--poses", "many.csv", "-o", "d.csv"}));
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  ASSERT_TRUE(tool.running());
+  tool.send(SIGINT);
+  const ToolResult result = tool.wait();
+  EXPECT_EQ(result.exit_code, 130);
+  EXPECT_THAT(result.err, testing::EndsWith("medial-vk: interrupted; nothing was written\n"));
+  EXPECT_THAT(folder_.names(), Not(testing::Contains("d.csv")));
 }
 
 TEST_F(DistanceCommand, CannotWriteIs6) {

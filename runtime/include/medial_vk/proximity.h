@@ -161,14 +161,16 @@ struct Distance {
 /// 2e-14 times the coordinates (more next to very thin triangles and to edges that are nearly parallel). `upper` is 0
 /// only where a common point is proved. `start` may be the result of an earlier query of the same two bodies, as for
 /// distance_bounds(). Allocates nothing. Precondition: as for distance_bounds(); likewise for shifts beyond 1e18.
-/// Error: kUsage (a body without a mesh, an option that is negative or no number).
+/// A request to `stop` ends the search at its next comparison. Errors: kUsage (a body without a mesh, an option that is
+/// negative or no number), kInterrupted.
 Result<Distance> distance(const Body& a, const Body& b, const Pose& pose, const DistanceOptions& options = {},
-                          const Distance& start = {});
+                          const Distance& start = {}, const std::stop_token& stop = {});
 
 /// The same for every pose; most searches start from the result before them. The intervals do not depend on the number
-/// of threads. Precondition: `results` has the size of `poses`.
+/// of threads. Precondition: `results` has the size of `poses`. After kInterrupted some results are those of their
+/// poses, and the others are as before.
 Status distances(const Body& a, const Body& b, std::span<const Pose> poses, std::span<Distance> results,
-                 const DistanceOptions& options = {}, const BatchOptions& batch = {});
+                 const DistanceOptions& options = {}, const BatchOptions& batch = {}, const std::stop_token& stop = {});
 
 /// Decides by balls, and where they do not, by the triangles of bodies with meshes. Allocates nothing. Precondition: as
 /// for distance_bounds().

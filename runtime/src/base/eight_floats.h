@@ -45,6 +45,11 @@ MEDIAL_VK_INLINE EightFloats select(const EightInts& where, const EightFloats& y
 MEDIAL_VK_INLINE EightFloats greater(const EightFloats& a, const EightFloats& b) { return select(a > b, a, b); }
 MEDIAL_VK_INLINE EightFloats lesser(const EightFloats& a, const EightFloats& b) { return select(a < b, a, b); }
 
+MEDIAL_VK_INLINE EightInts greater(const EightInts& a, const EightInts& b) {
+  const EightInts is_greater = a > b;
+  return (is_greater & a) | (~is_greater & b);
+}
+
 MEDIAL_VK_INLINE EightFloats absolute(const EightFloats& floats) {
   return reinterpret_cast<EightFloats>(reinterpret_cast<EightInts>(floats) & std::int32_t{0x7fffffff});
 }
@@ -54,6 +59,13 @@ MEDIAL_VK_INLINE float greatest_of(const EightFloats& floats) {
   float greatest = values[0];
   for (const float value : values) greatest = value > greatest ? value : greatest;
   return greatest;
+}
+
+MEDIAL_VK_INLINE std::int32_t greatest_of(const EightInts& ints) {
+  EightInts all = greater(ints, __builtin_shufflevector(ints, ints, 4, 5, 6, 7, 0, 1, 2, 3));
+  all = greater(all, __builtin_shufflevector(all, all, 2, 3, 0, 1, 6, 7, 4, 5));
+  all = greater(all, __builtin_shufflevector(all, all, 1, 0, 3, 2, 5, 4, 7, 6));
+  return all[0];
 }
 
 /// Bits 8 k to 8 k + 7 are the lowest eight of element k, which has no others.
@@ -68,11 +80,18 @@ MEDIAL_VK_INLINE std::uint64_t bytes_of(const EightInts& bits) {
 
 /// Bit k is set if element k is true.
 MEDIAL_VK_INLINE std::uint32_t bits_of(const EightInts& where) {
+#if defined(__SSE__) && defined(__GNUC__)
+  using FourFloats = float __attribute__((vector_size(16)));
+  std::array<FourFloats, 2> halves;
+  std::memcpy(halves.data(), &where, sizeof where);
+  return static_cast<std::uint32_t>(__builtin_ia32_movmskps(halves[0]) | __builtin_ia32_movmskps(halves[1]) << 4);
+#else
   const EightInts bits = where & EightInts{1, 2, 4, 8, 16, 32, 64, 128};
   std::array<std::uint64_t, 4> pairs;
   std::memcpy(pairs.data(), &bits, sizeof bits);
   const std::uint64_t all = (pairs[0] | pairs[1]) | (pairs[2] | pairs[3]);
   return static_cast<std::uint32_t>(all | all >> 32);
+#endif
 }
 
 /// Calls work() compiled for processors with AVX2 where there is one. `Work` is a function object whose call is

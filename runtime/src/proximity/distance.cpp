@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/loop_watch.h"
 #include "base/parallel.h"
 #include "proximity/nearest_triangles.h"
 #include "proximity/placement.h"
@@ -43,10 +44,11 @@ enum class Holds : std::uint8_t { kNo, kYes, kUnknown };
 /// `to_outer` maps from the frame of `inner`, with the error `error`. Surfaces are apart by `apart`: if that is more
 /// than all errors, a component is inside as a whole, or outside. An open mesh holds nothing.
 Holds holds(const BodySurface& outer, const BodySurface& inner, const Pose& to_outer, double error, double apart,
-            Point& point) {
+            const std::stop_token& stop, Point& point) {
   const MeshReport& report = outer.solid.mesh().report;
   if (!report.closed) return Holds::kNo;
   for (const std::array<Point, 6>& extremes : inner.extremes) {
+    if (stop.stop_requested()) throw LoopStopped();
     const bool may_be_inside =
         std::ranges::all_of(extremes, [&](const Point& p) { return is_in_box(to_outer * p, report, error); });
     if (!may_be_inside) continue;
@@ -60,7 +62,8 @@ Holds holds(const BodySurface& outer, const BodySurface& inner, const Pose& to_o
 
 /// Of two solids whose surfaces are apart, one may lie inside the other: from the distance of the surfaces to that of
 /// the solids.
-void decide_by_components(const BodySurface& a, const BodySurface& b, const Placement& placement, Distance& distance) {
+void decide_by_components(const BodySurface& a, const BodySurface& b, const Placement& placement,
+                          const std::stop_token& stop, Distance& distance) {
   const Inverse inverse = inverse_of(placement.pose());
   const double size = placement.lengths() + placement.distance() + a.tree.nodes().reach() + b.tree.nodes().reach();
   const auto decide = [&](Holds holds, const Point& point) {
@@ -73,9 +76,9 @@ void decide_by_components(const BodySurface& a, const BodySurface& b, const Plac
   };
   Point of_b = {0, 0, 0}, of_a = {0, 0, 0};
   constexpr double kForward = 16 * 0x1p-53;  // of a mapped point
-  const Holds a_holds = holds(a, b, placement.pose(), kForward * size, distance.lower, of_b);
+  const Holds a_holds = holds(a, b, placement.pose(), kForward * size, distance.lower, stop, of_b);
   if (decide(a_holds, placement.pose() * of_b)) return;
-  decide(holds(b, a, inverse.pose, inverse.error * size, distance.lower, of_a), of_a);
+  decide(holds(b, a, inverse.pose, inverse.error * size, distance.lower, stop, of_a), of_a);
 }
 
 /// Two balls inside may overlap where surfaces touch and do not cross.
@@ -106,39 +109,49 @@ Status check(const BodyImpl& a, const BodyImpl& b, const DistanceOptions& option
 
 /// Precondition: check() accepts the bodies and the options.
 Distance distance_of(const Body& a, const Body& b, const Pose& pose, const DistanceOptions& options,
-                     const Distance& start) {
+                     const Distance& start, const std::stop_token& stop) {
   const BodyImpl &in_a = Internals::of(a), &in_b = Internals::of(b);
   const Placement placement(in_a, in_b, pose);
   if (!placement.is_in_range()) return {};
-  return distance_of(in_a, in_b, placement, options, start);
+  return distance_of(in_a, in_b, placement, options, start, stop);
 }
+
+Error stopped() { return {ErrorCode::kInterrupted, "interrupted"}; }
 
 }  // namespace
 
 Distance distance_of(const BodyImpl& a, const BodyImpl& b, const Placement& placement, const DistanceOptions& options,
-                     const Distance& start) {
-  Distance distance = nearest_triangles(a.surface->tree, b.surface->tree, placement, start, options);
+                     const Distance& start, const std::stop_token& stop) {
+  Distance distance = nearest_triangles(a.surface->tree, b.surface->tree, placement, start, options, stop);
   if (options.surfaces_only || distance.upper == 0) return distance;
-  if (distance.lower > 0) decide_by_components(*a.surface, *b.surface, placement, distance);
+  if (distance.lower > 0) decide_by_components(*a.surface, *b.surface, placement, stop, distance);
   if (distance.lower == 0 && distance.upper > 0) decide_by_balls(a, b, placement, distance);
   return distance;
 }
 
 Result<Distance> distance(const Body& a, const Body& b, const Pose& pose, const DistanceOptions& options,
-                          const Distance& start) {
+                          const Distance& start, const std::stop_token& stop) {
   if (Status status = check(Internals::of(a), Internals::of(b), options); !status) return status.error();
-  return distance_of(a, b, pose, options, start);
+  try {
+    return distance_of(a, b, pose, options, start, stop);
+  } catch (const LoopStopped&) {
+    return stopped();
+  }
 }
 
 Status distances(const Body& a, const Body& b, std::span<const Pose> poses, std::span<Distance> results,
-                 const DistanceOptions& options, const BatchOptions& batch) {
+                 const DistanceOptions& options, const BatchOptions& batch, const std::stop_token& stop) {
   if (Status status = check(Internals::of(a), Internals::of(b), options); !status) return status;
   constexpr std::size_t kBlock = 64;
-  parallel_blocks(poses.size(), kBlock, batch.threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      results[i] = distance_of(a, b, poses[i], options, i > begin ? results[i - 1] : Distance{});
-    }
-  });
+  try {
+    parallel_blocks(poses.size(), kBlock, batch.threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        results[i] = distance_of(a, b, poses[i], options, i > begin ? results[i - 1] : Distance{}, stop);
+      }
+    });
+  } catch (const LoopStopped&) {
+    return stopped();
+  }
   return {};
 }
 
@@ -147,7 +160,7 @@ Collision collide(const Body& a, const Body& b, const Pose& pose) {
   if (by_balls != Collision::kUndecided || !a.has_mesh() || !b.has_mesh()) return by_balls;
   DistanceOptions options;
   options.limit = 0;
-  return distance_of(a, b, pose, options, {}).collision();
+  return distance_of(a, b, pose, options, {}, {}).collision();
 }
 
 }  // namespace medial_vk

@@ -17,9 +17,12 @@ class LargeBalls {
   explicit LargeBalls(const BodyTree& tree);
 
   const std::array<BodyNode, kNodes>& nodes() const { return nodes_; }
+  /// Holds all of them.
+  const FloatBall& around() const { return around_; }
 
  private:
   std::array<BodyNode, kNodes> nodes_ = {};
+  FloatBall around_ = {};
 };
 
 }  // namespace medial_vk

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/loop_watch.h"
+
 namespace medial_vk {
 namespace {
 
@@ -93,11 +95,13 @@ FloatBall ball_of(const BodyNode& node, std::uint32_t k) {
 
 class TrianglesGoal {
  public:
-  TrianglesGoal(const SurfaceTree& a, const SurfaceTree& b, const Placement& placement, const DistanceOptions& options)
+  TrianglesGoal(const SurfaceTree& a, const SurfaceTree& b, const Placement& placement, const DistanceOptions& options,
+                const std::stop_token& stop)
       : a_(a),
         b_(b),
         placement_(placement),
         options_(options),
+        stop_(stop),
         float_error_(placement.separation_error_of(a.nodes(), b.nodes())),
         error_(kRounding * (placement.lengths() + a.nodes().reach() + b.nodes().reach())) {
     shorten();
@@ -106,7 +110,11 @@ class TrianglesGoal {
   static constexpr bool kHasExcess = true;
 
   float reach() const { return reach_; }
-  bool is_reached() const { return best_.upper == 0; }
+  /// Asked before every comparison, and so the place to stop.
+  bool is_reached() const {
+    if (stop_.stop_requested()) throw LoopStopped();
+    return best_.upper == 0;
+  }
 
   /// The solids are no farther apart than balls in them. Neither are their surfaces, unless one solid lies in the
   /// other. (Every way from one solid to another one meets both surfaces.)
@@ -272,6 +280,7 @@ class TrianglesGoal {
   const SurfaceTree& b_;
   const Placement& placement_;
   const DistanceOptions& options_;
+  const std::stop_token& stop_;
   double float_error_;  // of a computed separation of balls
   double error_;        // of a corner, a point between corners, a distance between such points, and a separation
   Distance best_;
@@ -291,8 +300,8 @@ class TrianglesGoal {
 }  // namespace
 
 Distance nearest_triangles(const SurfaceTree& a, const SurfaceTree& b, const Placement& placement,
-                           const Distance& start, const DistanceOptions& options) {
-  TrianglesGoal goal(a, b, placement, options);
+                           const Distance& start, const DistanceOptions& options, const std::stop_token& stop) {
+  TrianglesGoal goal(a, b, placement, options, stop);
   const bool has_start = start.triangle_a < a.size() && start.triangle_b < b.size();
   if (has_start) goal.take({0, start.triangle_a, start.triangle_b});
   TreeSearch search(a.nodes(), b.nodes(), placement.float_pose(), goal);

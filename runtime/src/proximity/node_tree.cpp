@@ -76,7 +76,7 @@ struct NodeTree::Builder {
     divide(of_node, (of_node.size() + most_below - 1) / most_below, parts);
     if (parts.size() > 1 && most_below <= kLargestExchanged && !balls.radii.empty()) exchange(balls, most_below, parts);
     BodyNode node;
-    node.radius.fill(-3e38f);
+    node.radius.fill(kUnusedRadius);
     node.is_lowest = levels == 1;
     for (const Items& part : parts) {
       const std::uint32_t k = node.count++;

@@ -33,12 +33,15 @@ inline FloatBall float_ball_at(const Point& p) {
 /// In float, and at least the true value of a quantity that was computed in double with fewer than eight roundings.
 float rounded_up(double x);
 
+/// Of a slot without a ball: so far below 0 that nothing is near it.
+constexpr float kUnusedRadius = -3e38f;
+
 /// Up to eight balls, each with what it holds: a node below, or, in a node of the lowest level, one item.
 struct alignas(32) BodyNode {
   static constexpr std::size_t kWidth = 8;
 
   std::array<std::array<float, kWidth>, 3> centre = {};
-  std::array<float, kWidth> radius = {};         ///< Of an unused slot: so far below 0 that nothing is near it.
+  std::array<float, kWidth> radius = {};         ///< Of an unused slot: kUnusedRadius.
   std::array<float, kWidth> excess = {};         ///< Used by searches among triangles only.
   std::array<std::uint32_t, kWidth> below = {};  ///< Index of an item or of a node.
   std::uint32_t count = 0;                       ///< Of used slots, which are the first.

@@ -1,6 +1,8 @@
 // Two bodies in a pose, the errors of numbers computed from it, and their distance.
 #pragma once
 
+#include <stop_token>
+
 #include "base/point_ops.h"
 #include "medial_vk/pose.h"
 #include "proximity/body.h"
@@ -63,9 +65,10 @@ class Placement {
   FloatPose float_pose_;
 };
 
-/// distance(). Preconditions: both bodies have meshes; the options are good; the placement is in range.
+/// distance(). Preconditions: both bodies have meshes; the options are good; the placement is in range. Throws
+/// LoopStopped after a request to `stop`.
 Distance distance_of(const BodyImpl& a, const BodyImpl& b, const Placement& placement, const DistanceOptions& options,
-                     const Distance& start);
+                     const Distance& start, const std::stop_token& stop = {});
 
 /// Bounds by balls, below `most`: docs/theory.md, "Many bodies". No two balls of the covers are closer than the lower
 /// bound; `pair` becomes the closest, if it is closer than `most`, and is where the search starts. Preconditions: both

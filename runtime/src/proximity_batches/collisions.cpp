@@ -1,5 +1,7 @@
 #include "medial_vk/collisions.h"
 
+#include <bit>
+
 #include "base/eight_floats.h"
 #include "base/parallel.h"
 #include "proximity/body.h"
@@ -10,24 +12,26 @@
 namespace medial_vk {
 namespace {
 
-/// Whether some two of the balls have a smaller computed separation.
+/// Whether some two of the balls have a smaller computed separation. Balls of b far from the ball around those of a are
+/// left out.
 MEDIAL_VK_INLINE bool are_closer(const LargeBalls& of_a, const LargeBalls& of_b, const FloatPose& pose,
                                  float separation) {
+  const FloatBall& around = of_a.around();
   for (const BodyNode& b : of_b.nodes()) {
-    const EightFloats b_x = load(b.centre[0]), b_y = load(b.centre[1]), b_z = load(b.centre[2]);
-    const auto coordinate = [&](std::size_t i) __attribute__((always_inline)) {
-      const std::array<float, 3>& row = pose.rows[i];
-      return stored(row[0] * b_x + row[1] * b_y + row[2] * b_z + pose.shift[i]);
-    };
-    const std::array<float, 8> to_x = coordinate(0), to_y = coordinate(1), to_z = coordinate(2);
-    for (const BodyNode& a : of_a.nodes()) {
-      EightInts closer{};
-      for (std::uint32_t j = 0; j < b.count; ++j) {
-        const EightFloats x = load(a.centre[0]) - to_x[j], y = load(a.centre[1]) - to_y[j],
-                          z = load(a.centre[2]) - to_z[j], reach = load(a.radius) + (b.radius[j] + separation);
-        closer |= (x * x + y * y + z * z < reach * reach) & (reach > 0);
+    const EightCentres centres = in_frame_of_a(b, pose);
+    std::uint32_t near = bits_of(closer(centres.x - around.centre[0], centres.y - around.centre[1],
+                                        centres.z - around.centre[2], load(b.radius) + (around.radius + separation))
+                                     .where);
+    const StoredCentres to = stored(centres);
+    for (; near != 0; near &= near - 1) {
+      const auto j = static_cast<std::uint32_t>(std::countr_zero(near));
+      EightInts is_closer{};
+      for (const BodyNode& a : of_a.nodes()) {
+        is_closer |= closer(load(a.centre[0]) - to.x[j], load(a.centre[1]) - to.y[j], load(a.centre[2]) - to.z[j],
+                            load(a.radius) + (b.radius[j] + separation))
+                         .where;
       }
-      if ((bits_of(closer) & ((1u << a.count) - 1u)) != 0) return true;
+      if (bits_of(is_closer) != 0) return true;
     }
   }
   return false;

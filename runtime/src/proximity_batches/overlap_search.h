@@ -4,12 +4,44 @@
 #include <array>
 #include <bit>
 #include <type_traits>
-#include <utility>
 
 #include "medial_vk/proximity.h"
 #include "proximity/tree_search.h"
 
 namespace medial_vk {
+
+/// The centres of a node's balls in the frame of a.
+struct EightCentres {
+  EightFloats x, y, z;
+};
+
+MEDIAL_VK_INLINE EightCentres in_frame_of_a(const BodyNode& b, const FloatPose& pose) {
+  const EightFloats x = load(b.centre[0]), y = load(b.centre[1]), z = load(b.centre[2]);
+  const auto& [row_x, row_y, row_z] = pose.rows;
+  return {row_x[0] * x + row_x[1] * y + row_x[2] * z + pose.shift[0],
+          row_y[0] * x + row_y[1] * y + row_y[2] * z + pose.shift[1],
+          row_z[0] * x + row_z[1] * y + row_z[2] * z + pose.shift[2]};
+}
+
+struct StoredCentres {
+  std::array<float, BodyNode::kWidth> x, y, z;
+};
+
+MEDIAL_VK_INLINE StoredCentres stored(const EightCentres& centres) {
+  return {stored(centres.x), stored(centres.y), stored(centres.z)};
+}
+
+/// Where a vector is shorter than the reach, and by how much in squares.
+struct Closer {
+  EightInts where;
+  EightFloats by;
+};
+
+MEDIAL_VK_INLINE Closer closer(const EightFloats& x, const EightFloats& y, const EightFloats& z,
+                               const EightFloats& reach) {
+  const EightFloats square = x * x + y * y + z * z, square_of_reach = reach * reach;
+  return {(square < square_of_reach) & (reach > 0), square_of_reach - square};
+}
 
 /// Depth first, and of the pairs of a division the one that overlaps most first. Separations are compared by squares,
 /// as separation_error() allows. Everything is inlined into its caller, which chooses the processor. Allocates nothing.
@@ -21,105 +53,109 @@ class OverlapSearch {
 
   /// Whether two items have balls with a smaller computed separation than the given one.
   MEDIAL_VK_INLINE bool find() {
-    tasks_[0] = {0, 0, 0, 0, 0, 0, kAllOfSpace};
-    count_ = 1;
-    while (count_ > 0) {
-      const Task task = tasks_[--count_];
-      if (compare(task)) return true;
+    Nodes nodes = {0, 0, kNoBall};
+    while (!compare(nodes)) {
+      if (count_ == 0) return false;
+      nodes = next();
     }
-    return false;
+    return true;
   }
 
  private:
   static constexpr std::uint32_t kWidth = BodyNode::kWidth;
-  /// More than the distance of any two points in range (Placement::is_in_range()).
-  static constexpr float kAllOfSpace = 1.5e19f;
+  static constexpr std::uint32_t kNoBall = ~std::uint32_t{0};
 
-  /// Two nodes, one of each tree, whose balls are closer. Without initial values: those of a thousand tasks would take
-  /// longer than most searches.
-  struct Task {
-    float overlap;  ///< The square of their distance less that of the reach: the less, the more they overlap.
-    std::uint32_t node_a, node_b;
-    float x, y, z, radius;  ///< A ball that holds the balls of node_a.
+  /// One of each tree, whose balls are closer.
+  struct Nodes {
+    std::uint32_t a, b;
+    std::uint32_t above_a;  ///< Ball k of node n, 8 n + k, holds the balls of a; kNoBall: the root has none.
   };
-  static_assert(std::is_trivially_default_constructible_v<Task>);
 
-  /// All balls of one node with all of the other one, eight pairs at a time, except those of b that are far from the
-  /// ball around those of a. True: two items were found.
-  MEDIAL_VK_INLINE bool compare(const Task& task) {
-    const BodyNode &a = a_.node(task.node_a), &b = b_.node(task.node_b);
-    const EightFloats x = load(b.centre[0]), y = load(b.centre[1]), z = load(b.centre[2]);
-    const auto& [row_x, row_y, row_z] = pose_.rows;
-    const EightFloats in_a_x = row_x[0] * x + row_x[1] * y + row_x[2] * z + pose_.shift[0],
-                      in_a_y = row_y[0] * x + row_y[1] * y + row_y[2] * z + pose_.shift[1],
-                      in_a_z = row_z[0] * x + row_z[1] * y + row_z[2] * z + pose_.shift[2];
-    std::uint32_t near = bits_of(
-        closer(in_a_x - task.x, in_a_y - task.y, in_a_z - task.z, load(b.radius) + (task.radius + separation_)).where);
+  /// Two nodes and what is still to be followed below them. Without initial values, which would take time.
+  struct Division {
+    Nodes nodes;
+    std::uint32_t first;  ///< 8 k + j: ball k of a and ball j of b are followed first,
+    std::uint64_t rest;   ///< and then those of the bits 8 k + j.
+  };
+  static_assert(std::is_trivially_default_constructible_v<Division>);
+
+  MEDIAL_VK_INLINE Nodes next() {
+    Division& division = divisions_[count_ - 1];
+    const Nodes nodes = division.nodes;
+    const std::uint32_t k = division.first / kWidth, j = division.first % kWidth;
+    if (division.rest == 0) {
+      --count_;
+    } else {
+      division.first = static_cast<std::uint32_t>(std::countr_zero(division.rest));
+      division.rest &= division.rest - 1;
+    }
+    const BodyNode &a = a_.node(nodes.a), &b = b_.node(nodes.b);
+    const std::uint32_t below_b = b.is_lowest ? nodes.b : b.below[j];
+    return a.is_lowest ? Nodes{nodes.a, below_b, nodes.above_a} : Nodes{a.below[k], below_b, nodes.a * kWidth + k};
+  }
+
+  /// The balls of b that are closer to the ball around those of the other node: bit j.
+  MEDIAL_VK_INLINE std::uint32_t near_balls(const Nodes& nodes, const BodyNode& b, const EightCentres& centres) const {
+    if (nodes.above_a == kNoBall) return (1u << b.count) - 1;
+    const BodyNode& above = a_.node(nodes.above_a / kWidth);
+    const std::size_t k = nodes.above_a % kWidth;
+    return bits_of(closer(centres.x - above.centre[0][k], centres.y - above.centre[1][k],
+                          centres.z - above.centre[2][k], load(b.radius) + (above.radius[k] + separation_))
+                       .where);
+  }
+
+  /// All balls of one node with the near ones of the other, eight pairs at a time. True: two items were found.
+  MEDIAL_VK_INLINE bool compare(const Nodes& nodes) {
+    const BodyNode &a = a_.node(nodes.a), &b = b_.node(nodes.b);
+    const EightCentres centres = in_frame_of_a(b, pose_);
+    std::uint32_t near = near_balls(nodes, b, centres);
     if (near == 0) return false;
-    const std::array<float, kWidth> to_x = stored(in_a_x), to_y = stored(in_a_y), to_z = stored(in_a_z);
-    const EightFloats reach_a = load(a.radius) + separation_;
-    first_ = count_;
+    const StoredCentres to = stored(centres);
+    const EightFloats x = load(a.centre[0]), y = load(a.centre[1]), z = load(a.centre[2]),
+                      reach_a = load(a.radius) + separation_;
+    EightInts closer_to_a{}, most{};  // bit j of element k: ball k of a and ball j of b
     for (; near != 0; near &= near - 1) {
-      const auto j = static_cast<std::uint32_t>(std::countr_zero(near));
-      const Closer found = closer(load(a.centre[0]) - to_x[j], load(a.centre[1]) - to_y[j], load(a.centre[2]) - to_z[j],
-                                  reach_a + b.radius[j]);
-      const std::uint32_t pairs = bits_of(found.where);
-      if (pairs == 0) continue;
-      if (a.is_lowest && b.is_lowest) return true;
-      push_all(task, a, b, j, pairs, stored(found.overlap));
+      const auto j = static_cast<std::int32_t>(std::countr_zero(near));
+      const auto row = static_cast<std::size_t>(j);
+      const Closer found = closer(x - to.x[row], y - to.y[row], z - to.z[row], reach_a + b.radius[row]);
+      closer_to_a |= found.where & std::int32_t{1 << j};
+      most = greater(most, key_of(found, j));
     }
+    const std::uint64_t pairs = bytes_of(closer_to_a);
+    if (pairs == 0) return false;
+    if (a.is_lowest && b.is_lowest) return true;
+    const std::uint32_t first = static_cast<std::uint32_t>(greatest_of(most)) % (kWidth * kWidth);
+    const std::uint64_t rest = pairs & ~(std::uint64_t{1} << first);
+    divisions_[count_++] = {nodes, first, a.is_lowest || b.is_lowest ? without_repeats(rest, first, a) : rest};
     return false;
   }
 
-  struct Closer {
-    EightInts where;
-    EightFloats overlap;
-  };
-  MEDIAL_VK_INLINE static Closer closer(const EightFloats& x, const EightFloats& y, const EightFloats& z,
-                                        const EightFloats& reach) {
-    const EightFloats square = x * x + y * y + z * z, square_of_reach = reach * reach;
-    return {(square < square_of_reach) & (reach > 0), square - square_of_reach};
+  /// An order by overlap that ends in the number of the pair: of positive floats the greater one has the greater bits.
+  /// Of its last seven, one makes the key of a close pair greater than 0, and six are 8 k + j.
+  MEDIAL_VK_INLINE static EightInts key_of(const Closer& found, std::int32_t j) {
+    const EightInts pair = EightInts{64, 72, 80, 88, 96, 104, 112, 120} + j;
+    return ((reinterpret_cast<EightInts>(found.by) & ~127) | pair) & found.where;
   }
 
-  /// The pairs of ball j of b with some of a.
-  MEDIAL_VK_INLINE void push_all(const Task& task, const BodyNode& a, const BodyNode& b, std::uint32_t j,
-                                 std::uint32_t pairs, const std::array<float, kWidth>& overlaps) {
-    const std::uint32_t below_b = b.is_lowest ? task.node_b : b.below[j];
-    for (; pairs != 0; pairs &= pairs - 1) {
-      const auto k = static_cast<std::uint32_t>(std::countr_zero(pairs));
-      if (a.is_lowest) {
-        push({overlaps[k], task.node_a, below_b, task.x, task.y, task.z, task.radius});
-        return;  // the others are the same task
-      }
-      const Task below = {overlaps[k],    a.below[k],     below_b,    a.centre[0][k],
-                          a.centre[1][k], a.centre[2][k], a.radius[k]};
-      if (!b.is_lowest || !repeats(below)) push(below);
+  /// A node of the lowest level is not replaced, so all pairs of its balls with one of the other node lead to the same
+  /// two nodes: one of them stays, and none with that of `first`.
+  MEDIAL_VK_INLINE static std::uint64_t without_repeats(std::uint64_t pairs, std::uint32_t first, const BodyNode& a) {
+    std::uint64_t rest = 0;
+    for (std::uint32_t i = 0; i < kWidth; ++i) {
+      const std::uint32_t start = a.is_lowest ? i : i * kWidth;
+      const std::uint64_t same = (a.is_lowest ? std::uint64_t{0x0101010101010101} : std::uint64_t{0xff}) << start;
+      if (((same >> first) & 1) == 0 && (pairs & same) != 0) rest |= std::uint64_t{1} << start;
     }
+    return rest;
   }
-
-  MEDIAL_VK_INLINE bool repeats(const Task& task) const {
-    for (std::size_t slot = first_; slot < count_; ++slot) {
-      if (tasks_[slot].node_a == task.node_a && tasks_[slot].node_b == task.node_b) return true;
-    }
-    return false;
-  }
-
-  /// Of the tasks of one division the one that overlaps most is the last.
-  MEDIAL_VK_INLINE void push(const Task& task) {
-    tasks_[count_] = task;
-    if (count_ > first_ && tasks_[count_ - 1].overlap < task.overlap) std::swap(tasks_[count_ - 1], tasks_[count_]);
-    ++count_;
-  }
-
-  /// A comparison replaces a task by up to 64, at most once for each level of both trees.
-  static constexpr std::size_t kMostTasks = 1 + (kWidth * kWidth - 1) * 2 * node_levels(kMostBodyBalls);
 
   const NodeTree& a_;
   const NodeTree& b_;
   const FloatPose& pose_;
   float separation_;
-  std::size_t count_ = 0, first_ = 0;
-  std::array<Task, kMostTasks> tasks_;
+  std::size_t count_ = 0;
+  /// At most one for each level: below the lowest level of both trees there is nothing.
+  std::array<Division, node_levels(kMostBodyBalls)> divisions_;
 };
 
 }  // namespace medial_vk

@@ -199,15 +199,17 @@ class ClearanceRun {
     return {};
   }
 
-  /// Block by block, so that progress is shown and a signal is seen.
+  /// Block by block, so that progress is shown. A signal may end the process within a configuration, as there is
+  /// nothing to undo: bodies were kept before.
   Status compute() {
     constexpr std::size_t kBlock = 1024;
+    const EndAtOnce guard;
+    if (interrupted()) return ended();
     Stopwatch stopwatch;
     clearances_.resize(values_.size());
     by_triangles_.assign(values_.size(), options_.balls == 0);
     std::vector<Pose> poses;
     for (std::size_t begin = 0; begin < values_.size(); begin += kBlock) {
-      if (interrupted()) return ended();
       progress_.update("distances", static_cast<double>(begin) / static_cast<double>(values_.size()));
       const std::size_t count = std::min(kBlock, values_.size() - begin);
       poses.resize(count * all_.links());

@@ -138,13 +138,15 @@ class DistanceRun {
     return {};
   }
 
-  /// Block by block, so that progress is shown and a signal is seen.
+  /// Block by block, so that progress is shown. One pose of large meshes may take long, and nothing is lost if a signal
+  /// ends the process within it.
   Status compute() {
     constexpr std::size_t kBlock = 4096;
+    const EndAtOnce guard;
+    if (interrupted()) return stopped();
     Stopwatch stopwatch;
     (options_.balls ? bounds_.resize(poses_.size()) : distances_.resize(poses_.size()));
     for (std::size_t begin = 0; begin < poses_.size(); begin += kBlock) {
-      if (interrupted()) return stopped();
       progress_.update("distances", static_cast<double>(begin) / static_cast<double>(poses_.size()));
       const std::size_t count = std::min(kBlock, poses_.size() - begin);
       const std::span<const Pose> poses = std::span(poses_).subspan(begin, count);
