@@ -20,6 +20,7 @@
 #include "medial_vk/foam.h"
 #include "medial_vk/follower.h"
 #include "medial_vk/indexed_mesh.h"
+#include "medial_vk/least_wall.h"
 #include "medial_vk/measurements.h"
 #include "medial_vk/medial_mesh.h"
 #include "medial_vk/medial_spheres.h"

@@ -1,0 +1,45 @@
+// The directions of the spokes that balls around some centres may have, in two groups (docs/theory.md, "Least wall").
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "base/point_ops.h"
+
+namespace medial_vk {
+
+/// Directions within an angle of a unit vector. An axis of zero: any directions.
+struct SpokeCone {
+  Point axis = {0, 0, 0};
+  double angle = 0;
+};
+
+/// What is known of balls with two contacts and an object angle of at least theta.
+struct PairsOfContacts {
+  bool are_possible = true;  ///< There may be such balls.
+  bool are_apart = false;    ///< The spokes of each are in different groups, of less than half of their angle each.
+  double object_angle = 0;   ///< Of these balls, at least.
+};
+
+/// The cones that contain the spokes of all contacts, or sums of them with weights that are not negative.
+class SpokeGroups {
+ public:
+  /// Groups the cones by their angle with the one of this index.
+  PairsOfContacts divide(std::span<const SpokeCone> cones, std::size_t first, double theta);
+  /// Of the last call: 0 for the group of the first one, 1 for the other one.
+  std::size_t group_of(std::size_t cone) const { return groups_[cone]; }
+  /// Of a group that is not empty, if spokes are apart.
+  const SpokeCone& cap(std::size_t group) const { return caps_[group]; }
+
+ private:
+  SpokeCone cap_of(std::span<const SpokeCone> cones, std::size_t group) const;
+
+  static constexpr std::size_t kAll = 2;  // both groups
+
+  std::vector<std::size_t> groups_;
+  std::array<SpokeCone, 2> caps_;
+};
+
+}  // namespace medial_vk

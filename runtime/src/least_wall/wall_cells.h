@@ -1,0 +1,88 @@
+// Cells of space in which thin walls may have their middle (docs/theory.md, "Least wall").
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "bvh/nearby_triangles.h"
+#include "bvh/triangle_distance.h"
+#include "bvh/wide_tree.h"
+#include "least_wall/spoke_groups.h"
+#include "medial_vk/least_wall.h"
+#include "solid/solid.h"
+
+namespace medial_vk {
+
+/// The normals of triangles, with bounds of their errors, by leaf position.
+std::vector<SpokeCone> normals_of(const Bvh& bvh);
+
+/// A solid and what all searches on it share.
+struct WallField {
+  const Solid& solid;
+  const WideTree& tree;
+  const std::vector<SpokeCone>& normals;
+  LeastWallOptions options;
+};
+
+/// A cube.
+struct WallCell {
+  Point centre = {0, 0, 0};
+  double half = 0;   // of its side
+  double least = 0;  // no medial ball with the object angle around a centre in it has a smaller radius
+  std::optional<Point> vertex = std::nullopt;  // of all triangles within reach
+  std::uint64_t number = 0;
+
+  WallCell part(std::size_t index) const;
+};
+
+/// Examines one cell after another in the same memory.
+class WallCells {
+ public:
+  bool debug = false;
+  explicit WallCells(const WallField& field);
+
+  /// Raises the bound of the cell: infinite if there is no medial ball with the object angle in it. Looks for one below
+  /// the radius `best`, and returns it.
+  std::optional<WallBall> examine(WallCell& cell, double best);
+
+  /// Half the side of a cube around a vertex in which there is no medial ball with the object angle; 0: that is not
+  /// known.
+  double free_around(const Point& vertex);
+
+ private:
+  /// What is known of the balls around centres in the cell.
+  struct Known {
+    bool are_possible = true;
+    double object_angle = 0;
+    double least_radius = 0;
+  };
+
+  bool is_on_other_side(const Point& centre, double distance) const;
+  void gather(const Point& centre, double radius, std::uint32_t nearest_triangle);
+  Known pairs_by_normals();
+  Known pairs_by_directions(double distance, double h);
+  void bound_by_heights(Known& known) const;
+  std::optional<Point> common_vertex() const;
+  double cone_radius(const Point& vertex);
+  bool is_free(WallCell cell);
+  std::optional<double> step_to_middle(const Point& direction, double distance) const;
+  std::optional<WallBall> touch(const Point& contact, const Point& direction, double radius) const;
+
+  /// A triangle within reach.
+  struct Near {
+    std::uint32_t position;
+    NearestOffset offset;  // of its nearest point from the centre of the cell
+  };
+
+  const WallField& field_;
+  double toward_;  // 1: balls are on the inner side of triangles, -1: on the outer side
+  double rounding_;
+  SpokeGroups groups_;
+  std::vector<std::uint32_t> nearby_;
+  std::vector<Near> near_;
+  std::vector<SpokeCone> cones_;  // by triangle within reach
+  std::size_t nearest_ = 0;       // the nearest of them
+};
+
+}  // namespace medial_vk
