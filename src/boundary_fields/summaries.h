@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "boundary_fields/boundary_fields.h"
+#include "boundary_fields/thin_places.h"
 #include "medial_vk/mesh.h"
 #include "medial_vk/thickness.h"
 
@@ -51,6 +52,7 @@ CurvatureRecord summarise_curvature(const Mesh& mesh, const BoundaryFields& fiel
 struct BoundaryRecord {
   std::optional<ThicknessRecord> thickness;
   std::optional<CurvatureRecord> curvature;
+  std::vector<WallRecord> walls;  ///< Of --min-wall and --min-gap.
 };
 
 }  // namespace medial_vk

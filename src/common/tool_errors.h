@@ -7,5 +7,6 @@ namespace medial_vk {
 
 inline constexpr ErrorCode kCannotWrite{1000};  ///< A file that cannot be written.
 inline constexpr ErrorCode kCheckFailed{1001};  ///< Results that did not pass a check.
+inline constexpr ErrorCode kWallTooThin{1002};  ///< A wall or a gap that is thinner than demanded, or may be.
 
 }  // namespace medial_vk

@@ -49,7 +49,8 @@ class BallsNear {
   double least_reach() const { return target() - off_; }
   /// Less than the target by the rounding of distances from contacts.
   double target_of_contacts() const { return target() / kBoundRounding - rounding_; }
-  bool is_exhausted() const { return queries_ >= field_.options.queries; }
+  /// No further distances are of use, as no ball counts as larger than the best one, or may be computed.
+  bool is_exhausted() const { return best_.radius >= limit_ || queries_ >= field_.options.queries; }
 
   ContactLists& contacts() { return contacts_; }
   void mark_used(std::size_t contact) { used_[contact] = true; }

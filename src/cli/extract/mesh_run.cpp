@@ -11,6 +11,7 @@
 #include "base/stopwatch.h"
 #include "check_reports/check_sheets.h"
 #include "cli/extract/summary.h"
+#include "cli/extract/wall_run.h"
 #include "cli/options/measures.h"
 #include "cli/shared/load.h"
 #include "cli/shared/reference_with_estimate.h"
@@ -92,6 +93,9 @@ Status MeshRun::load(Mesh mesh) {
   shared_.progress.clear();
   if (!prepared) return prepared.error();
   record_.mesh = prepared.value().report;
+  if ((options_.min_wall > 0 || options_.min_gap > 0) && !record_.mesh.closed) {
+    return Error{ErrorCode::kInvalidMesh, "the mesh has open edges: --min-wall and --min-gap need a closed one"};
+  }
   return index(std::move(prepared).value());
 }
 
@@ -172,7 +176,8 @@ void MeshRun::describe() {
 }
 
 Status MeshRun::measure() {
-  if (!measures_of(options_).any()) return {};
+  const bool walls = options_.min_wall > 0 || options_.min_gap > 0;
+  if (!measures_of(options_).any() && !walls) return {};
   const EndAtOnce guard;
   if (interrupted()) return stopped();
   Result<MeasuredBoundary> made = measure_boundary(*mesh_, analysis_.spheres, record_.grid.voxel_size, options_,
@@ -180,6 +185,10 @@ Status MeshRun::measure() {
   shared_.progress.clear();
   if (!made) return made.error();
   boundary_ = std::move(made).value();
+  Result<std::vector<WallRecord>> compared = measure_walls(*mesh_, options_, shared_.progress, record_.host_times);
+  shared_.progress.clear();
+  if (!compared) return compared.error();
+  boundary_.record.walls = std::move(compared).value();
   record_.boundary = boundary_.record;
   return {};
 }

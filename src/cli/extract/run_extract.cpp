@@ -11,6 +11,7 @@
 
 #include "cli/extract/mesh_run.h"
 #include "cli/extract/summary.h"
+#include "cli/extract/wall_run.h"
 #include "cli/options/options.h"
 #include "cli/shared/load.h"
 #include "cli/terminal/interrupt.h"
@@ -125,16 +126,22 @@ class ExtractionRun {
         print_message(summary(record, run->files()));
       }
       if (options_.verbose) print_message(details(record));
+      if (Status status = print_places(*run); !status) return status;
+      if (Status status = verdict(record.boundary.walls); !status && failed) failed = status;
       if (!record.check) continue;
-      if (Status status = print_table(*run); !status) return status;
+      if (Status status = print_table(*run, check_table(*record.check)); !status) return status;
       if (Status status = verdict(*record.check); !status && failed) failed = status;
     }
     return failed;
   }
 
-  /// The table of --check, to standard output unless a file is written there.
-  Status print_table(const MeshRun& run) const {
-    std::string table = check_table(*run.record().check);
+  Status print_places(const MeshRun& run) const {
+    const std::string table = places_table(run.record().boundary.walls);
+    return table.empty() ? Status() : print_table(run, table);
+  }
+
+  /// To standard output unless a file is written there.
+  Status print_table(const MeshRun& run, std::string table) const {
     if (runs_.size() > 1) table = run.record().part + ":\n" + table;
     const bool is_taken = std::ranges::any_of(run.files(), [](const OutputFile& file) { return file.path == "-"; });
     if (!is_taken) return print_result(table);

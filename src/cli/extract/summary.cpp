@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "cli/extract/wall_run.h"
 #include "cli/terminal/numbers.h"
 #include "cli/terminal/tables.h"
 
@@ -160,6 +161,9 @@ std::string summary(const RunRecord& record, std::span<const OutputFile> files) 
   if (record.medial_mesh) text += labelled("mesh", describe_medial_mesh(record));
   if (record.boundary.thickness) text += labelled("thickness", describe_thickness(*record.boundary.thickness));
   if (record.boundary.curvature) text += labelled("curvature", describe_curvature(*record.boundary.curvature));
+  for (const WallRecord& walls : record.boundary.walls) {
+    text += labelled(walls.side == ThicknessSide::kWalls ? "walls" : "gaps", describe_walls(walls));
+  }
   text += labelled("radius", range_text(record.radii));
   text += labelled("time", describe_times(record.host_times));
   return text + written_text(files);

@@ -87,6 +87,13 @@ What is measured on the boundary, for summary, report, page and these files:
       --thickness-width W  the search for a point ends when its interval is no
                         wider than W times its lower end, 1e-6 to 1 (default
                         0.01)
+      --min-wall T      fail with exit code 8 and a list of places if a wall is
+                        thinner than T by a thousandth or more, in the units of
+                        the mesh, which must be closed; else that is proved
+      --min-gap T       the same for gaps outside
+      --wall-angle A    what counts as a wall: balls that touch both sides, with
+                        an object angle of A radians, between pi/4 and pi/2
+                        (default 1.2: edges sharper than 42 degrees count, too)
 
 What is looked for (lengths are fractions, so units do not matter):
       --resolution N    voxels along the longest side of the bounding box,
@@ -154,7 +161,7 @@ whole or not at all.
 
 Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 mesh unreadable or
 invalid, 4 no usable Vulkan device, 5 out of memory, 6 cannot write, 7 --check
-failed, 130 interrupted.
+failed, 8 a wall or gap below --min-wall or --min-gap, 130 interrupted.
 )";
 }
 

@@ -57,6 +57,9 @@ struct Options {
   std::string boundary;             ///< As `report`.
   std::string thickness_histogram;  ///< As `report`.
 
+  double min_wall = 0;              ///< In mesh units; 0: any.
+  double min_gap = 0;               ///< As `min_wall`.
+  double wall_angle = 1.2;          ///< Radians.
   bool thickness = false;           ///< Measured even if no other output needs it.
   bool curvature = false;           ///< As `thickness`.
   double boundary_edge = 0;         ///< Fraction of the longest side that edges of the boundary may have; 0: any.

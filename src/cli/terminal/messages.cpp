@@ -198,6 +198,7 @@ void print_message(const std::string& text) { std::fputs(text.c_str(), stderr); 
 int exit_code(ErrorCode code) {
   if (code == kCannotWrite) return 6;
   if (code == kCheckFailed) return 7;
+  if (code == kWallTooThin) return 8;
   switch (code) {
     case ErrorCode::kUsage:
       return 2;

@@ -274,9 +274,39 @@ Json curvature_json(const std::optional<CurvatureRecord>& record) {
           {"median_error", record->median_error}};
 }
 
+Json walls_json(const WallRecord& record) {
+  const char* verdict = record.verdict == WallRecord::Verdict::kThickEnough ? "thick enough"
+                        : record.verdict == WallRecord::Verdict::kTooThin   ? "too thin"
+                                                                            : "undecided";
+  Json ball = nullptr;
+  if (const std::optional<WallBall>& thinnest = record.found.thinnest) {
+    ball = {{"centre", thinnest->ball.centre},
+            {"radius", thinnest->ball.radius},
+            {"contacts", {thinnest->a, thinnest->b}},
+            {"object_angle", thinnest->object_angle}};
+  }
+  Json places = Json::array();
+  for (const ThinPlace& place : record.places) {
+    places.push_back(
+        {{"lower", place.least.lower}, {"upper", place.least.upper}, {"at", place.at}, {"area", place.area}});
+  }
+  return {{"side", record.side == ThicknessSide::kWalls ? "walls" : "gaps"},
+          {"demanded", record.demanded},
+          {"object_angle", record.object_angle},
+          {"verdict", verdict},
+          {"proved", record.found.diameter.lower},
+          {"thinnest", ball},
+          {"places", places},
+          {"cells", record.found.cells}};
+}
+
 Json boundary_json(const BoundaryRecord& record) {
-  if (!record.thickness && !record.curvature) return nullptr;
-  return {{"thickness", thickness_json(record.thickness)}, {"curvature", curvature_json(record.curvature)}};
+  if (!record.thickness && !record.curvature && record.walls.empty()) return nullptr;
+  Json walls = Json::array();
+  for (const WallRecord& of_side : record.walls) walls.push_back(walls_json(of_side));
+  return {{"thickness", thickness_json(record.thickness)},
+          {"curvature", curvature_json(record.curvature)},
+          {"walls", walls}};
 }
 
 Json check_json(const std::optional<CheckReport>& check) {

@@ -23,6 +23,10 @@ void require_in_range(const cli::Options& options) {
   require(options.sphere_detail.value_or(0) <= kGreatestSphereDetail, "--sphere-detail keeps its range");
   require(options.thickness_delta > 0 && options.thickness_delta < 0.1, "--thickness-delta keeps its range");
   require(options.thickness_width >= 1e-6 && options.thickness_width <= 1, "--thickness-width keeps its range");
+  require(options.min_wall >= 0 && options.min_wall < 1e18, "--min-wall keeps its range");
+  require(options.min_gap >= 0 && options.min_gap < 1e18, "--min-gap keeps its range");
+  require(options.wall_angle > std::numbers::pi / 4 && options.wall_angle < std::numbers::pi / 2,
+          "--wall-angle keeps its range");
   require(options.boundary_edge == 0 || (options.boundary_edge >= 0.001 && options.boundary_edge <= 1),
           "--boundary-edge keeps its range");
   const PictureOptions& look = options.look;

@@ -1,0 +1,47 @@
+// Places where walls, or gaps, are thinner than demanded.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "medial_vk/least_wall.h"
+#include "medial_vk/thickness.h"
+
+namespace medial_vk {
+
+/// Points of the boundary that are close to each other.
+struct ThinPlace {
+  Bounds least;          ///< The interval of the least lower end.
+  Point at = {0, 0, 0};  ///< Its point.
+  double area = 0;       ///< Of the boundary; 0: of less than a point's share.
+};
+
+/// How the thinnest wall, or gap, compares with what is demanded.
+struct WallRecord {
+  enum class Verdict : std::uint8_t {
+    kThickEnough,  ///< Proved.
+    kTooThin,      ///< There is a ball that is smaller.
+    kUndecided,    ///< No smaller ball was found, but one may exist.
+  };
+
+  ThicknessSide side = ThicknessSide::kWalls;
+  double demanded = 0;      ///< The least diameter, in mesh units.
+  double object_angle = 0;  ///< Of the balls that count, at least, in radians.
+  LeastWall found = {};     ///< Of walls below `demanded`.
+  Verdict verdict = Verdict::kThickEnough;
+  std::vector<ThinPlace> places = {};  ///< If it is too thin: the largest first.
+};
+
+/// Walls are too thin if they are thinner than demanded by more than this share, so that those made as thin as that
+/// pass.
+inline constexpr double kThinShare = 1e-3;
+
+/// Groups the points in walls that are proved to be too thin, and not thinner than walls can be: with a ball of at
+/// least the object angle and an upper end in the range. Each point stands for `area_of_point`; points within three of
+/// the lengths of a square of this area are in one place.
+std::vector<ThinPlace> group_thin_places(std::span<const Point> points, std::span<const Thickness> at_points,
+                                         double area_of_point, const Bounds& range, double object_angle);
+
+}  // namespace medial_vk

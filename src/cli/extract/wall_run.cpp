@@ -1,0 +1,150 @@
+#include "cli/extract/wall_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "base/stopwatch.h"
+#include "cli/terminal/tables.h"
+#include "common/tool_errors.h"
+#include "medial_vk/thickness.h"
+#include "sphere_fits/quality/surface_samples.h"
+
+namespace medial_vk::cli {
+namespace {
+
+constexpr std::size_t kPointsForPlaces = 10'000, kMostPlaces = 20;
+
+// Of what is demanded. Points of the boundary this close to a ball of a hundred times the radius count as contacts, so
+// that object angles are too large by acos(100 / 101) = 0.14 radians at most.
+constexpr double kDeltaShare = 0.005;
+
+// Of what is demanded: the search ends when this share is left, and smaller walls are looked for below the same share.
+// Both together are less than kThinShare.
+constexpr double kHalfShare = 0.49 * kThinShare;
+
+const char* name_of(const WallRecord& record) { return record.side == ThicknessSide::kWalls ? "wall" : "gap"; }
+
+double area_of(const Mesh& mesh) {
+  double area = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const Point &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    const Point u = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+    area += 0.5 * std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
+  }
+  return area;
+}
+
+/// The places where points of equal areas are proved to be too thin, and that of the thinnest ball if none of them is.
+Result<std::vector<ThinPlace>> find_places(const IndexedMesh& mesh, const WallRecord& record, const Options& options,
+                                           const ProgressCallback& on_progress) {
+  const std::vector<Point> points = sample_surface(mesh.prepared().mesh, kPointsForPlaces);
+  ThicknessOptions how;
+  how.side = record.side;
+  how.delta = std::min(options.thickness_delta * mesh.longest_side(), kDeltaShare * record.demanded);
+  how.limit = 2 * record.demanded;
+  how.threads = options.threads;
+  Result<std::vector<Thickness>> at_points = measure_thickness(mesh, points, how, on_progress);
+  if (!at_points) return at_points.error();
+  const double share = area_of(mesh.prepared().mesh) / static_cast<double>(std::max<std::size_t>(points.size(), 1));
+  std::vector<ThinPlace> places = group_thin_places(
+      points, at_points.value(), share, {record.found.diameter.lower, record.demanded}, record.object_angle);
+  const WallBall& thinnest = *record.found.thinnest;
+  const double diameter = record.found.diameter.upper;
+  const bool is_known =
+      std::ranges::any_of(places, [&](const ThinPlace& place) { return place.least.lower <= diameter; });
+  if (!is_known) places.insert(places.begin(), ThinPlace{record.found.diameter, thinnest.a, 0});
+  return places;
+}
+
+Result<WallRecord> compare(const IndexedMesh& mesh, ThicknessSide side, double demanded, const Options& options,
+                           Progress& progress) {
+  WallRecord record = {.side = side, .demanded = demanded, .object_angle = options.wall_angle};
+  LeastWallOptions how;
+  how.side = side;
+  how.object_angle = options.wall_angle;
+  how.limit = demanded * (1 - kHalfShare);
+  how.width = kHalfShare;
+  how.threads = options.threads;
+  const auto shown = [&](double done) { progress.update(name_of(record), done); };
+  Result<LeastWall> found = measure_least_wall(mesh, how, shown);
+  if (!found) return found.error();
+  record.found = std::move(found).value();
+  if (record.found.thinnest) {
+    record.verdict = WallRecord::Verdict::kTooThin;
+    Result<std::vector<ThinPlace>> places = find_places(mesh, record, options, shown);
+    if (!places) return places.error();
+    record.places = std::move(places).value();
+  } else if (record.found.diameter.lower < demanded * (1 - kThinShare)) {
+    record.verdict = WallRecord::Verdict::kUndecided;
+  }
+  return record;
+}
+
+}  // namespace
+
+Result<std::vector<WallRecord>> measure_walls(const IndexedMesh& mesh, const Options& options, Progress& progress,
+                                              std::vector<StageTime>& times) {
+  std::vector<WallRecord> records;
+  Stopwatch stopwatch;
+  for (const auto& [side, demanded] :
+       {std::pair{ThicknessSide::kWalls, options.min_wall}, std::pair{ThicknessSide::kGaps, options.min_gap}}) {
+    if (demanded == 0) continue;
+    Result<WallRecord> record = compare(mesh, side, demanded, options, progress);
+    if (!record) return record.error();
+    records.push_back(std::move(record).value());
+  }
+  if (!records.empty()) times.push_back({"walls", stopwatch.lap()});
+  return records;
+}
+
+std::string describe_walls(const WallRecord& record) {
+  const Bounds& least = record.found.diameter;
+  const std::string wanted = fmt::format("{:.6g}", record.demanded);
+  if (record.verdict == WallRecord::Verdict::kThickEnough) {
+    return fmt::format("no {} is thinner than {}: proved for object angles of {:g} and more", name_of(record), wanted,
+                       record.object_angle);
+  }
+  if (record.verdict == WallRecord::Verdict::kUndecided) {
+    return fmt::format("no {} thinner than {} was found, but only {:.6g} is proved", name_of(record), wanted,
+                       least.lower);
+  }
+  const WallBall& ball = *record.found.thinnest;
+  return fmt::format(
+      "the thinnest {} is {:.6g} to {:.6g}, below {}: between {:.6g}, {:.6g}, {:.6g} and {:.6g}, {:.6g}, {:.6g}",
+      name_of(record), least.lower, least.upper, wanted, ball.a[0], ball.a[1], ball.a[2], ball.b[0], ball.b[1],
+      ball.b[2]);
+}
+
+std::string places_table(const std::vector<WallRecord>& records) {
+  std::vector<std::vector<std::string>> rows;
+  std::string left_out;
+  for (const WallRecord& record : records) {
+    const std::size_t shown = std::min(record.places.size(), kMostPlaces);
+    for (const ThinPlace& place : std::span(record.places).first(shown)) {
+      rows.push_back({name_of(record), fmt::format("{:.6g}", place.least.lower),
+                      fmt::format("{:.6g}", place.least.upper), fmt::format("{:.6g}", place.at[0]),
+                      fmt::format("{:.6g}", place.at[1]), fmt::format("{:.6g}", place.at[2]),
+                      place.area > 0 ? fmt::format("{:.3g}", place.area) : "-"});
+    }
+    if (shown < record.places.size()) {
+      left_out += fmt::format("and {} smaller places of thin {}s\n", record.places.size() - shown, name_of(record));
+    }
+  }
+  if (rows.empty()) return {};
+  return format_table({{"thin"}, {"from", true}, {"to", true}, {"x", true}, {"y", true}, {"z", true}, {"area", true}},
+                      rows) +
+         left_out;
+}
+
+Status verdict(const std::vector<WallRecord>& records) {
+  for (const WallRecord& record : records) {
+    if (record.verdict != WallRecord::Verdict::kThickEnough) return Error{kWallTooThin, describe_walls(record)};
+  }
+  return {};
+}
+
+}  // namespace medial_vk::cli
