@@ -47,6 +47,47 @@ TEST_F(BoundaryOfATool, TheThicknessOfAPlateIsInItsIntervals) {
   EXPECT_TRUE(report()["boundary"]["curvature"].is_null());
 }
 
+TEST_F(BoundaryOfATool, AWallBelowTheLeastOneIsAnErrorWithItsPlace) {
+  const ToolResult result = run_cpu({"plate.obj", "--min-wall", "0.25", "--report", "r.json"});
+  EXPECT_EQ(result.exit_code, 8);
+  EXPECT_THAT(result.err, HasSubstr("  walls     the thinnest wall is 0.2"));
+  EXPECT_THAT(result.out, HasSubstr("thin"));
+  EXPECT_THAT(result.out, HasSubstr("\nwall  "));
+  const nlohmann::json walls = report()["boundary"]["walls"][0];
+  EXPECT_EQ(walls["side"], "walls");
+  EXPECT_EQ(walls["verdict"], "too thin");
+  EXPECT_NEAR(walls["thinnest"]["radius"], 0.1, 1e-6);
+  EXPECT_LE(walls["proved"], 0.2);
+  double area = 0;
+  for (const nlohmann::json& place : walls["places"]) area += place["area"].get<double>();
+  EXPECT_GT(area, 6);  // of 8 on both faces; near their edges balls are smaller
+  EXPECT_LT(area, 8.1);
+}
+
+TEST_F(BoundaryOfATool, AWallAsThinAsTheLeastOneIsProved) {
+  const ToolResult result = run_cpu({"plate.obj", "--min-wall", "0.2", "--min-gap", "0.5", "--report", "r.json"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("  walls     no wall is thinner than 0.2: proved"));
+  EXPECT_THAT(result.err, HasSubstr("  gaps      no gap is thinner than 0.5: proved"));
+  const nlohmann::json walls = report()["boundary"]["walls"];
+  ASSERT_EQ(walls.size(), 2u);
+  EXPECT_GE(walls[0]["proved"], 0.2 * 0.999);
+  EXPECT_TRUE(walls[0]["thinnest"].is_null());
+  EXPECT_EQ(walls[1]["side"], "gaps");
+}
+
+TEST_F(BoundaryOfATool, LeastWallsNeedAClosedMeshAndAnglesALeastWall) {
+  Mesh open = test::make_box({2, 2, 0.2});
+  open.triangles.pop_back();
+  test::write_file(path("open.obj"), test::to_obj(open));
+  const ToolResult result = run_cpu({"open.obj", "--min-wall", "0.1"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.err, HasSubstr("--min-wall and --min-gap need a closed one"));
+  const ToolResult angle = run_cpu({"plate.obj", "--wall-angle", "1.3"});
+  EXPECT_EQ(angle.exit_code, 2);
+  EXPECT_THAT(angle.err, HasSubstr("use it with --min-wall or --min-gap"));
+}
+
 TEST_F(BoundaryOfATool, AllOutputsAreWritten) {
   const ToolResult result =
       run_cpu({"plate.obj", "--boundary", "b.vtp", "--thickness-histogram", "h.csv", "--picture", "p.png", "--show",
