@@ -126,6 +126,8 @@ WallCells::Known WallCells::pairs_by_normals() {
   const PairsOfContacts pairs = groups_.divide(cones_, nearest_, field_.options.object_angle);
   Known known = {pairs.are_possible, pairs.object_angle, 0};
   if (pairs.are_possible && pairs.are_apart) bound_by_heights(known);
+  // At an edge of both groups a spoke is a sum of normals of both; groups that are apart in height share none.
+  if (!(known.least_radius > 0)) known.object_angle = field_.options.object_angle;
   return known;
 }
 
