@@ -39,7 +39,8 @@ struct LeastWall {
   /// Holds the least diameter of a medial ball with the object angle, or the limit if that is less. In mesh units,
   /// rounded outwards. The object angle of the ball that gives the upper end may be smaller by 0.001.
   Bounds diameter;
-  std::optional<WallBall> thinnest;  ///< The ball of the upper end; none if no ball below the limit was found.
+  std::optional<WallBall> thinnest;  ///< The ball of the upper end; none if no ball below the limit was found, as where
+                                     ///< the only one is isolated.
   std::uint64_t cells = 0;           ///< Examined.
 };
 
