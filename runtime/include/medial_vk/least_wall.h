@@ -39,15 +39,17 @@ struct LeastWall {
   /// Holds the least diameter of a medial ball with the object angle, or the limit if that is less. In mesh units,
   /// rounded outwards. The object angle of the ball that gives the upper end may be smaller by 0.001.
   Bounds diameter;
-  std::optional<WallBall> thinnest;  ///< The ball of the upper end; none if no ball below the limit was found.
+  std::optional<WallBall> thinnest;  ///< The ball of the upper end; none if no ball below the limit was found, as where
+                                     ///< the only one is isolated.
   std::uint64_t cells = 0;           ///< Examined.
 };
 
 /// No medial ball with the object angle has a smaller diameter than the lower end, by a bound for all centres in a cell
-/// of space; the search divides cells where smaller balls may be. Needs a closed mesh. Time: some 10 microseconds a
-/// cell; the number of cells grows with the area over the squared thickness, and where walls are curved with 1 /
-/// width^2. `progress` gets the share of the cells that may be examined, on the calling thread. Errors: kUsage (an
-/// option out of range, a mesh that is not closed), kOutOfMemory, kInterrupted.
+/// of space; the search divides cells where smaller balls may be. Needs a closed mesh, and is slow where normals are
+/// not trusted (kTrustedNormal). Time: some 10 microseconds a cell; the number of cells grows with the area over the
+/// squared thickness, and where walls are curved with 1 / width^2. `progress` gets the share of the cells that may be
+/// examined, on the calling thread. Errors: kUsage (an option out of range, a mesh that is not closed), kOutOfMemory,
+/// kInterrupted.
 Result<LeastWall> measure_least_wall(const IndexedMesh& mesh, const LeastWallOptions& options = {},
                                      const ProgressCallback& progress = {}, const std::stop_token& stop = {});
 

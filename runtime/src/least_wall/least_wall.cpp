@@ -130,7 +130,7 @@ Result<LeastWall> measure_least_wall(const IndexedMesh& mesh, const LeastWallOpt
     Result<Solid> solid = Solid::build(mesh);
     if (!solid) return solid.error();
     const WideTree tree(solid.value().bvh());
-    const std::vector<SpokeCone> normals = normals_of(solid.value().bvh());
+    const std::vector<SpokeCone> normals = normals_of(solid.value());
     try {
       WallField field = {solid.value(), tree, normals, options};
       if (options.limit == 0) field.options.limit = mesh.longest_side();

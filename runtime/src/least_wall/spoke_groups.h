@@ -20,7 +20,7 @@ struct SpokeCone {
 struct PairsOfContacts {
   bool are_possible = true;  ///< There may be such balls.
   bool are_apart = false;    ///< The spokes of each are in different groups, of less than half of their angle each.
-  double object_angle = 0;   ///< Of these balls, at least.
+  double object_angle = 0;   ///< Of the balls whose spokes are each in one cap, at least.
 };
 
 /// The cones that contain the spokes of all contacts, or sums of them with weights that are not negative.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 
@@ -44,14 +43,18 @@ WallCell WallCell::part(std::size_t index) const {
   return part;
 }
 
-std::vector<SpokeCone> normals_of(const Bvh& bvh) {
+std::vector<SpokeCone> normals_of(const Solid& solid) {
+  const Bvh& bvh = solid.bvh();
+  const std::vector<std::uint8_t>& flags = solid.mesh().flags;
   std::vector<SpokeCone> normals;
   normals.reserve(bvh.corners().size());
-  for (const std::array<Point, 3>& corners : bvh.corners()) {
+  for (std::size_t i = 0; i < bvh.corners().size(); ++i) {
+    const std::array<Point, 3>& corners = bvh.corners()[i];
+    const bool is_trusted = !flags.empty() && (flags[bvh.order()[i]] & kTrustedNormal) != 0;
     double shorter = 0;
     const Point area = double_area(corners[0], corners[1], corners[2], shorter);
     const double size = length(area), error = kAreaRounding * shorter;
-    const bool is_known = size > 2 * error;
+    const bool is_known = is_trusted && size > 2 * error;
     normals.push_back(is_known ? SpokeCone{(1 / size) * area, std::asin(error / size)} : SpokeCone{});
   }
   return normals;
@@ -123,6 +126,8 @@ WallCells::Known WallCells::pairs_by_normals() {
   const PairsOfContacts pairs = groups_.divide(cones_, nearest_, field_.options.object_angle);
   Known known = {pairs.are_possible, pairs.object_angle, 0};
   if (pairs.are_possible && pairs.are_apart) bound_by_heights(known);
+  // At an edge of both groups a spoke is a sum of normals of both; groups that are apart in height share none.
+  if (!(known.least_radius > 0)) known.object_angle = field_.options.object_angle;
   return known;
 }
 
@@ -254,6 +259,9 @@ std::optional<double> WallCells::step_to_middle(const Point& direction, double d
 std::optional<WallBall> WallCells::touch(const Point& contact, const Point& direction, double radius) const {
   constexpr int kMostSteps = 30;
   std::optional<Point> other;
+  // A radius that is exact already would show one contact alone.
+  constexpr double kEnlargement = 1 + 0x1p-10;
+  radius *= kEnlargement;
   for (int step = 0; step < kMostSteps; ++step) {
     const Point centre = contact + radius * direction;
     const BvhHit hit = field_.tree.closest(field_.solid.bvh(), centre);

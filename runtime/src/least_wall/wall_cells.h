@@ -14,8 +14,9 @@
 
 namespace medial_vk {
 
-/// The normals of triangles, with bounds of their errors, by leaf position.
-std::vector<SpokeCone> normals_of(const Bvh& bvh);
+/// The normals of triangles, with bounds of their errors, by leaf position; any direction where none is trusted: balls
+/// may touch such a triangle from both sides.
+std::vector<SpokeCone> normals_of(const Solid& solid);
 
 /// A solid and what all searches on it share.
 struct WallField {
@@ -39,7 +40,6 @@ struct WallCell {
 /// Examines one cell after another in the same memory.
 class WallCells {
  public:
-  bool debug = false;
   explicit WallCells(const WallField& field);
 
   /// Raises the bound of the cell: infinite if there is no medial ball with the object angle in it. Looks for one below
