@@ -16,6 +16,7 @@
 
 #include "base/point_ops.h"
 #include "cpu_reference/queries.h"
+#include "least_wall/wall_cells.h"
 #include "medial_vk/prepare.h"
 #include "support/eigen_points.h"
 #include "support/indexed.h"
@@ -200,10 +201,10 @@ std::vector<WallCase> wall_cases() {
           {"bent L outside", bent(turned(make_l_shape(1, 0.3, 0.2))), ThicknessSide::kGaps}};
 }
 
-/// The diameter of the ball that is tangent at p, with its centre in this direction, and shrinks from a radius until it
+/// The ball that is tangent at p, with its centre in this direction, and shrinks from a radius until it
 /// holds no point of the mesh, if its object angle is no less than the given one.
-std::optional<double> shrunk_diameter(const reference::Tree& tree, const Eigen::Vector3d& p,
-                                      const Eigen::Vector3d& direction, double radius, double object_angle) {
+std::optional<Ball> shrunk_ball(const reference::Tree& tree, const Eigen::Vector3d& p, const Eigen::Vector3d& direction,
+                                double radius, double object_angle) {
   std::optional<Eigen::Vector3d> other;
   for (int step = 0; step < 60; ++step) {
     const Eigen::Vector3d centre = p + radius * direction;
@@ -211,7 +212,7 @@ std::optional<double> shrunk_diameter(const reference::Tree& tree, const Eigen::
     if (closest.distance >= radius * (1 - 1e-9)) {
       if (!other) return std::nullopt;
       const Eigen::Vector3d a = (p - centre).normalized(), b = (*other - centre).normalized();
-      return reference::half_angle(a, b) >= object_angle ? std::optional(2 * radius) : std::nullopt;
+      return reference::half_angle(a, b) >= object_angle ? std::optional(Ball{to_point(centre), radius}) : std::nullopt;
     }
     const Eigen::Vector3d chord = closest.point - p;
     const double along = chord.dot(direction);
@@ -220,6 +221,25 @@ std::optional<double> shrunk_diameter(const reference::Tree& tree, const Eigen::
     radius = chord.squaredNorm() / (2 * along);
   }
   return std::nullopt;
+}
+
+/// No cell of any size that holds the centre of a ball has a bound above its radius.
+void expect_bounds_below(const IndexedMesh& mesh, const LeastWallOptions& options, const std::vector<Ball>& balls) {
+  const Solid solid = Solid::build(mesh).value();
+  const WideTree tree(solid.bvh());
+  const std::vector<SpokeCone> normals = normals_of(solid);
+  const WallField field = {solid, tree, normals, options};
+  WallCells cells(field);
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<> offset(-1, 1);
+  for (const Ball& ball : balls) {
+    for (int k = 0; k < 12; ++k) {
+      WallCell cell = {.centre = ball.centre, .half = ball.radius * std::ldexp(1, 1 - k)};
+      for (double& x : cell.centre) x += cell.half * offset(random);
+      cells.examine(cell, std::numeric_limits<double>::infinity());
+      EXPECT_LE(cell.least, ball.radius * (1 + 1e-8)) << k << " at " << testing::PrintToString(ball.centre);
+    }
+  }
 }
 
 class LeastWallOf : public testing::TestWithParam<WallCase> {};
@@ -235,23 +255,20 @@ TEST_P(LeastWallOf, HoldsWhatTheReferenceFinds) {
   if (found.thinnest) expect_touches(found, prepared, options);
   std::mt19937_64 random(3);
   std::uniform_real_distribution<> share(0, 1);
-  double least = longest;
-  int walls = 0;
+  std::vector<Ball> balls;
   for (int t = 0; t < tree.triangle_count(); ++t) {
     for (int i = 0; i < 4000 / tree.triangle_count() + 1; ++i) {
       const double a = std::sqrt(share(random)), b = share(random);
       const Eigen::Vector3d p =
           (1 - a) * tree.corner(t, 0) + a * (1 - b) * tree.corner(t, 1) + a * b * tree.corner(t, 2);
-      const auto diameter =
-          shrunk_diameter(tree, p, toward * tree.normal(t), 0.5 * longest, options.object_angle + 1e-6);
-      if (!diameter) continue;
-      ++walls;
-      least = std::min(least, *diameter);
+      const auto ball = shrunk_ball(tree, p, toward * tree.normal(t), 0.5 * longest, options.object_angle + 1e-6);
+      if (ball) balls.push_back(*ball);
     }
   }
-  EXPECT_GE(least, found.diameter.lower * (1 - 1e-8));
+  for (const Ball& ball : balls) EXPECT_GE(2 * ball.radius, found.diameter.lower * (1 - 1e-8));
+  expect_bounds_below(indexed(prepared), options, balls);
   if (options.side == ThicknessSide::kWalls) {
-    EXPECT_GT(walls, 10);
+    EXPECT_GT(balls.size(), 10u);
   }
 }
 
