@@ -36,7 +36,7 @@ struct WallRecord {
 
 /// Walls are too thin if they are thinner than demanded by more than this share, so that those made as thin as that
 /// pass.
-inline constexpr double kThinShare = 1e-3;
+inline constexpr double kThinShare = 0.01;
 
 /// Groups the points in walls that are proved to be too thin, and not thinner than walls can be: with a ball of at
 /// least the object angle and an upper end in the range. Each point stands for `area_of_point`; points within three of

@@ -88,7 +88,7 @@ What is measured on the boundary, for summary, report, page and these files:
                         wider than W times its lower end, 1e-6 to 1 (default
                         0.01)
       --min-wall T      fail with exit code 8 and a list of places if a wall is
-                        thinner than T by a thousandth or more, in the units of
+                        thinner than T by a hundredth or more, in the units of
                         the mesh, which must be closed; else that is proved
       --min-gap T       the same for gaps outside
       --wall-angle A    what counts as a wall: balls that touch both sides, with
