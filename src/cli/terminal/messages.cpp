@@ -33,6 +33,7 @@ constexpr ParameterWords kParameterWords[] = {
     library_only("body"),
     {"border", "--sheet-border", {}, {}},
     library_only("capacity"),
+    library_only("cells"),
     library_only("clearance"),
     {"contract", {}, "--contract", "--contract"},
     {"count", {}, "--count", kRobotCount, {}, {}, {}, "--count"},
