@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+
+#include "base/point_ops.h"
 
 namespace medial_vk {
 namespace {
@@ -19,13 +22,9 @@ double median_of(std::vector<double> values) {
 std::vector<double> areas_of_vertices(const Mesh& mesh) {
   std::vector<double> areas(mesh.vertices.size(), 0);
   for (const Triangle& t : mesh.triangles) {
-    std::array<Point, 2> side;
-    for (std::size_t k = 0; k < 3; ++k) {
-      side[0][k] = mesh.vertices[t[1]][k] - mesh.vertices[t[0]][k];
-      side[1][k] = mesh.vertices[t[2]][k] - mesh.vertices[t[0]][k];
-    }
-    const auto& [u, v] = side;
-    const double area = std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]) / 2;
+    double shorter = 0;
+    const double area =
+        0.5 * length(double_area(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], shorter));
     for (const std::uint32_t corner : t) areas[corner] += area / 3;
   }
   return areas;
@@ -43,6 +42,11 @@ std::optional<CurvatureRecord::Range> range_of(const BoundaryField& field) {
 }
 
 }  // namespace
+
+double area_of(const Mesh& mesh) {
+  const std::vector<double> areas = areas_of_vertices(mesh);
+  return std::accumulate(areas.begin(), areas.end(), 0.0);
+}
 
 ThicknessRecord summarise_thickness(std::span<const Point> points, std::vector<Thickness> at_points, double delta,
                                     double width) {

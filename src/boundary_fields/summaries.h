@@ -14,6 +14,9 @@
 
 namespace medial_vk {
 
+/// Of all triangles.
+double area_of(const Mesh& mesh);
+
 /// Thickness at points that stand for equal parts of the area.
 struct ThicknessRecord {
   double delta = 0;               ///< In mesh units.

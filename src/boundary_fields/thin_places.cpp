@@ -4,25 +4,12 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
+
+#include "base/connected_vertices.h"
+#include "base/point_ops.h"
 
 namespace medial_vk {
 namespace {
-
-/// Numbers of points, joined into groups.
-class Groups {
- public:
-  explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-
-  std::size_t group_of(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::size_t a, std::size_t b) { parent_[group_of(b)] = group_of(a); }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 using Cell = std::array<std::int64_t, 3>;
 
@@ -32,20 +19,16 @@ Cell cell_of(const Point& p, double side) {
   return cell;
 }
 
-bool are_within(const Point& a, const Point& b, double distance) {
-  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) <= distance;
-}
-
-/// Joins points within `distance` of each other.
-void join_neighbours(std::span<const Point> points, double distance, Groups& groups) {
-  std::map<Cell, std::vector<std::size_t>> of_cell;
-  for (std::size_t i = 0; i < points.size(); ++i) {
+/// Connects points within `distance` of each other.
+void connect_neighbours(std::span<const Point> points, double distance, ConnectedVertices& groups) {
+  std::map<Cell, std::vector<std::uint32_t>> of_cell;
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
     const Cell cell = cell_of(points[i], distance);
     for (int k = 0; k < 27; ++k) {
       const auto beside = of_cell.find({cell[0] + k % 3 - 1, cell[1] + k / 3 % 3 - 1, cell[2] + k / 9 - 1});
       if (beside == of_cell.end()) continue;
-      for (const std::size_t other : beside->second) {
-        if (are_within(points[i], points[other], distance)) groups.join(other, i);
+      for (const std::uint32_t other : beside->second) {
+        if (length(points[i] - points[other]) <= distance) groups.connect(i, other);
       }
     }
     of_cell[cell].push_back(i);
@@ -64,11 +47,11 @@ std::vector<ThinPlace> group_thin_places(std::span<const Point> points, std::spa
     thin.push_back(points[i]);
     intervals.push_back(at_points[i].diameter);
   }
-  Groups groups(thin.size());
-  if (area_of_point > 0) join_neighbours(thin, 3 * std::sqrt(area_of_point), groups);
-  std::map<std::size_t, ThinPlace> of_group;
-  for (std::size_t i = 0; i < thin.size(); ++i) {
-    ThinPlace& place = of_group[groups.group_of(i)];
+  ConnectedVertices groups;
+  if (area_of_point > 0) connect_neighbours(thin, 3 * std::sqrt(area_of_point), groups);
+  std::map<std::uint32_t, ThinPlace> of_group;
+  for (std::uint32_t i = 0; i < thin.size(); ++i) {
+    ThinPlace& place = of_group[groups.root(i)];
     if (place.area == 0 || intervals[i].lower < place.least.lower) {
       place.least = intervals[i];
       place.at = thin[i];

@@ -153,8 +153,8 @@ void WallCells::bound_by_heights(Known& known) const {
 }
 
 /// A point x of a triangle within the reach R of c is within sqrt(R^2 - |q - c|^2) of its point q that is nearest to c,
-/// as the angle at q is right or greater. From a centre m, |m - c| <= h, the direction to x differs by up to asin(h /
-/// d).
+/// as the angle at q is right or greater. From a centre m, |m - c| <= h, the direction to x differs by up to
+/// asin(h / d).
 WallCells::Known WallCells::pairs_by_directions(double distance, double h) {
   const double theta = field_.options.object_angle;
   if (!(h < 0.25 * distance)) return {true, theta, 0};
@@ -162,8 +162,8 @@ WallCells::Known WallCells::pairs_by_directions(double distance, double h) {
   const double by_centre = std::asin(h / distance);
   cones_.clear();
   for (const Near& near : near_) {
-    const double squared = near.offset.squared_distance * (1 - kBoundShare),
-                 size = std::sqrt(near.offset.squared_distance);
+    const double size = std::sqrt(near.offset.squared_distance);
+    const double squared = near.offset.squared_distance * (1 - kBoundShare);
     const double beside = std::sqrt(std::max(0.0, reach * reach - squared)) + rounding_;
     cones_.push_back({(1 / size) * near.offset.offset, std::atan(beside / size) * (1 + kBoundShare) + by_centre});
   }
@@ -205,9 +205,9 @@ double WallCells::cone_radius(const Point& vertex) {
   return radius - rounding_;
 }
 
-/// If the boundary is a cone up to four diagonals of the cube, medial balls around centres in it are as in the cone:
-/// scaled by any factor, they are medial balls again. So if there are none between the cube and its half, there are
-/// none in it.
+/// A medial ball around a centre in the cube touches within 2 sqrt(3) of half its side from the vertex, where the
+/// boundary is a cone. Scaled by any factor, it is a medial ball of the cone again. So if there is none between the
+/// cube and its half, there is none in it.
 double WallCells::free_around(const Point& vertex) {
   const double half = cone_radius(vertex) / 8;
   if (!(half > 0)) return 0;

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <span>
 #include <utility>
 
 #include "base/stopwatch.h"
+#include "boundary_fields/summaries.h"
 #include "cli/terminal/tables.h"
 #include "common/tool_errors.h"
 #include "medial_vk/thickness.h"
@@ -27,16 +27,6 @@ constexpr double kDeltaShare = 0.005;
 constexpr double kHalfShare = 0.49 * kThinShare;
 
 const char* name_of(const WallRecord& record) { return record.side == ThicknessSide::kWalls ? "wall" : "gap"; }
-
-double area_of(const Mesh& mesh) {
-  double area = 0;
-  for (const Triangle& t : mesh.triangles) {
-    const Point &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-    const Point u = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-    area += 0.5 * std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
-  }
-  return area;
-}
 
 /// The places where points of equal areas are proved to be too thin, and that of the thinnest ball if none of them is.
 Result<std::vector<ThinPlace>> find_places(const IndexedMesh& mesh, const WallRecord& record, const Options& options,
