@@ -44,7 +44,10 @@ class BallTable {
       if (count > 1) return line_error(name_, number, fmt::format("two columns are named {}", kColumns[i]));
       if (count == 1) column_[i] = static_cast<std::size_t>(std::ranges::find(words, kColumns[i]) - words.begin());
       if (count == 0 && i < kLevel) {
-        return line_error(name_, number, "the first line must name the columns x, y, z and radius, in any order");
+        return line_error(name_, number,
+                          "the first line must name the columns x, y, z and radius, in any order (a file of balls is "
+                          "such a table, a medial "
+                          "PLY or a body file)");
       }
     }
     if (std::ranges::find(words, "link") != words.end()) {

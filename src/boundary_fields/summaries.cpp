@@ -89,7 +89,7 @@ CurvatureRecord summarise_curvature(const Mesh& mesh, const BoundaryFields& fiel
   record.unknown_share = all > 0 ? unknown / all : 0;
   std::vector<double> errors = fields.find(field_names::kCurvatureError)->values;
   std::erase_if(errors, [](double error) { return std::isnan(error); });
-  record.median_error = median_of(std::move(errors));
+  if (!errors.empty()) record.median_error = median_of(std::move(errors));
   return record;
 }
 

@@ -46,7 +46,7 @@ struct CurvatureRecord {
   };
   std::optional<Range> kappa_1, kappa_2;  ///< None: unknown at all vertices.
   double unknown_share = 0;               ///< Of the area: where a curvature is not known.
-  double median_error = 0;                ///< Over vertices with an estimate.
+  std::optional<double> median_error;     ///< Over vertices with an estimate; none: there are none.
 };
 
 /// `fields` hold curvatures.

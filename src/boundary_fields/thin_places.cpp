@@ -39,16 +39,17 @@ void connect_neighbours(std::span<const Point> points, double distance, Connecte
 
 std::vector<ThinPlace> group_thin_places(std::span<const Point> points, std::span<const Thickness> at_points,
                                          double area_of_point, const Bounds& range, double object_angle) {
-  std::vector<Point> thin;
+  std::vector<Point> thin, centres;
   std::vector<Bounds> intervals;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double upper = at_points[i].diameter.upper;
     if (upper < range.lower || upper >= range.upper || at_points[i].object_angle < object_angle) continue;
     thin.push_back(points[i]);
+    centres.push_back(at_points[i].ball.centre);
     intervals.push_back(at_points[i].diameter);
   }
   ConnectedVertices groups;
-  if (area_of_point > 0) connect_neighbours(thin, 3 * std::sqrt(area_of_point), groups);
+  if (area_of_point > 0) connect_neighbours(centres, 3 * std::sqrt(area_of_point), groups);
   std::map<std::uint32_t, ThinPlace> of_group;
   for (std::uint32_t i = 0; i < thin.size(); ++i) {
     ThinPlace& place = of_group[groups.root(i)];

@@ -16,8 +16,6 @@ ALLOWED = [
     (r"volk_source\.c\.o", r"medial_vk_(vk|volk)\w+", "volk's pointers to the loader and to functions of instances"),
     (r"volk_source\.c\.o", r"loaded(Module|Instance|Device)", "the loader, and the last arguments of volk"),
     (r".*", r"DW\.ref\.\w+", "the compiler's, for exceptions: never written"),
-    (r".*", r"(guard variable for )?Eigen::internal::manage_caching_sizes\(.*\)::m_cacheSizes",
-     "sizes of the processor's caches, which Eigen reads once, under the guard of the language"),
 ]
 WRITABLE = re.compile(r"^(\.data|\.bss|\.tdata|\.tbss|\*COM\*)")
 READ_ONLY = re.compile(r"^\.data\.rel\.ro")

@@ -24,7 +24,7 @@ struct LeastWallOptions {
   double width = 0.01;
   /// In mesh units: walls that are not thinner are not searched for. 0: the longest side, which no ball inside exceeds.
   double limit = 0;
-  std::uint32_t cells = 1u << 21;  ///< That may be examined; then the interval is left wider.
+  std::uint32_t cells = 1u << 21;  ///< That may be examined, and up to seven more; then the interval is left wider.
   unsigned threads = 0;            ///< Of the host, 0: one per core. The result does not depend on it.
 };
 
@@ -45,11 +45,11 @@ struct LeastWall {
 };
 
 /// No medial ball with the object angle has a smaller diameter than the lower end, by a bound for all centres in a cell
-/// of space; the search divides cells where smaller balls may be. Needs a closed mesh, and is slow where normals are
-/// not trusted (kTrustedNormal). Time: some 10 microseconds a cell; the number of cells grows with the area over the
-/// squared thickness, and where walls are curved with 1 / width^2. `progress` gets the share of the cells that may be
-/// examined, on the calling thread. Errors: kUsage (an option out of range, a mesh that is not closed), kOutOfMemory,
-/// kInterrupted.
+/// of space; the search divides cells where smaller balls may be. Needs a closed mesh, and may prove nothing near
+/// faces whose normals are not trusted (kTrustedNormal). Time: some 10 microseconds a cell; the number of cells grows
+/// with the area over the squared thickness, and where walls are curved with 1 / width^2. `progress` gets the share of
+/// the cells that may be examined, on the calling thread. Errors: kUsage (an option out of range, a mesh that is not
+/// closed), kOutOfMemory, kInterrupted.
 Result<LeastWall> measure_least_wall(const IndexedMesh& mesh, const LeastWallOptions& options = {},
                                      const ProgressCallback& progress = {}, const std::stop_token& stop = {});
 

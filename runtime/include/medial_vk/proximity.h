@@ -161,8 +161,8 @@ struct Distance {
 /// 2e-14 times the coordinates (more next to very thin triangles and to edges that are nearly parallel). `upper` is 0
 /// only where a common point is proved. `start` may be the result of an earlier query of the same two bodies, as for
 /// distance_bounds(). Allocates nothing. Precondition: as for distance_bounds(); likewise for shifts beyond 1e18.
-/// A request to `stop` ends the search at its next comparison. Errors: kUsage (a body without a mesh, an option that is
-/// negative or no number), kInterrupted.
+/// A request to `stop` ends the search at its next comparison of triangles. Errors: kUsage (a body without a mesh, an
+/// option that is negative or no number), kInterrupted.
 Result<Distance> distance(const Body& a, const Body& b, const Pose& pose, const DistanceOptions& options = {},
                           const Distance& start = {}, const std::stop_token& stop = {});
 

@@ -216,7 +216,7 @@ class Renewal {
 
   /// The next exchange, or none if no further one is worth it.
   Result<std::optional<BallExchange>> next_exchange() {
-    while (!gains_.empty()) {
+    while (!gains_.empty() && !losses_.empty()) {
       const Result<Valued> best = pop_best();
       if (!best) return best.error();
       const TrackedBall& by = candidates_[best.value().second];

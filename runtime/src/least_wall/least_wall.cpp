@@ -13,13 +13,17 @@
 namespace medial_vk {
 namespace {
 
-// Of the half side of the whole: far above the rounding of coordinates.
+// Of the half side of the whole.
 constexpr double kSmallestShare = 0x1p-36;
+
+// Of Solid::rounding(): centres of cells are rounded by u times their coordinates in each of some 36 divisions, and it
+// holds four such errors. Cells are larger than that by another factor.
+constexpr double kRoundings = 16, kSmallestRoundings = 8;
 
 // Of the same: smaller cells beside a vertex are tested for the cone there.
 constexpr double kVertexShare = 0x1p-14;
 
-constexpr std::size_t kCellsAtATime = 512, kCellsOfABlock = 16;
+constexpr std::size_t kCellsAtATime = 4096, kCellsOfABlock = 16;
 
 Status check(const IndexedMesh& mesh, const LeastWallOptions& options) {
   const auto usage = [](const char* message) { return Error{ErrorCode::kUsage, message}; };
@@ -37,16 +41,19 @@ Status check(const IndexedMesh& mesh, const LeastWallOptions& options) {
 /// Divides the cells with the least bounds, many at a time, so that the result does not depend on threads.
 class LeastWallSearch {
  public:
-  explicit LeastWallSearch(const WallField& field) : field_(field) { best_ = 0.5 * field.options.limit; }
+  LeastWallSearch(const WallField& field, const WallCell& whole, const std::stop_token& stop)
+      : field_(field),
+        stop_(stop),
+        smallest_(std::max(kSmallestShare * whole.half, kSmallestRoundings * field.rounding)),
+        best_(0.5 * field.options.limit) {
+    add(whole);
+  }
 
-  LeastWall run(const ProgressCallback& progress, const std::stop_token& stop) {
-    add(whole());
-    smallest_ = kSmallestShare * open_.front().half;
-    while (!open_.empty() && examined_ < field_.options.cells && !is_near_enough(open_.front().least) &&
-           open_.front().half > smallest_) {
-      if (stop.stop_requested()) throw LoopStopped();
+  LeastWall run(const ProgressCallback& progress) {
+    while (examined_ < field_.options.cells && is_worth_dividing()) {
       divide_some();
-      if (progress) progress(static_cast<double>(examined_) / static_cast<double>(field_.options.cells));
+      const double share = static_cast<double>(examined_) / static_cast<double>(field_.options.cells);
+      if (progress) progress(std::min(share, 1.0));
     }
     if (progress) progress(1);
     const double least = open_.empty() ? best_ : std::min(best_, open_.front().least);
@@ -54,16 +61,9 @@ class LeastWallSearch {
   }
 
  private:
-  /// Centres of balls that touch in two points are close to the middle between these: within r cos theta, and r is at
-  /// most half the diagonal over sin theta.
-  WallCell whole() const {
-    const BvhBox& box = field_.solid.bvh().nodes().front().box;
-    const Point size = box.upper - box.lower;
-    const double beyond = 0.5 * length(size) / std::tan(field_.options.object_angle);
-    return {.centre = 0.5 * (box.lower + box.upper),
-            .half = (0.5 * std::max({size[0], size[1], size[2]}) + beyond) * (1 + 0x1p-40)};
+  bool is_worth_dividing() const {
+    return !open_.empty() && !is_near_enough(open_.front().least) && open_.front().half > smallest_;
   }
-
   bool is_near_enough(double least) const { return least * (1 + field_.options.width) >= best_; }
 
   void add(const WallCell& cell) {
@@ -75,19 +75,25 @@ class LeastWallSearch {
 
   /// Cells beside a vertex would be divided without end, as the boundary there looks the same at every scale.
   bool is_free_beside_vertex(const WallCell& cell) {
-    if (!cell.vertex || cell.half > kVertexShare * whole().half) return false;
+    if (!cell.vertex || cell.half > field_.small) return false;
+    check_stop();
     const Point& vertex = *cell.vertex;
     auto known = free_around_.find(vertex);
     if (known == free_around_.end()) known = free_around_.emplace(vertex, WallCells(field_).free_around(vertex)).first;
     const Point offset = cell.centre - vertex;
     const double farthest = std::max({std::fabs(offset[0]), std::fabs(offset[1]), std::fabs(offset[2])}) + cell.half;
-    return farthest < known->second * (1 - 0x1p-40);
+    return farthest + field_.rounding < known->second * (1 - 0x1p-40);
+  }
+
+  void check_stop() const {
+    if (stop_.stop_requested()) throw LoopStopped();
   }
 
   void divide_some() {
+    check_stop();
     cells_.clear();
-    while (!open_.empty() && cells_.size() < kCellsAtATime * 8 && !is_near_enough(open_.front().least) &&
-           open_.front().half > smallest_) {
+    const std::size_t most = std::min<std::size_t>(kCellsAtATime, field_.options.cells - examined_);
+    while (cells_.size() < most && is_worth_dividing()) {
       std::pop_heap(open_.begin(), open_.end(), kIsLater);
       for (std::size_t i = 0; i < 8; ++i) cells_.push_back(open_.back().part(i));
       open_.pop_back();
@@ -111,8 +117,9 @@ class LeastWallSearch {
   };
 
   const WallField& field_;
-  double smallest_ = 0;  // cells are not divided further, as rounding decides there
-  double best_;          // the least radius that was found, or half the limit
+  const std::stop_token& stop_;
+  double smallest_;  // cells are not divided further, as rounding decides there
+  double best_;      // the least radius that was found, or half the limit
   std::optional<WallBall> thinnest_;
   std::vector<WallCell> open_;           // a heap
   std::map<Point, double> free_around_;  // by vertex
@@ -120,6 +127,16 @@ class LeastWallSearch {
   std::vector<std::optional<WallBall>> found_;
   std::uint64_t examined_ = 0, number_ = 0;
 };
+
+/// Centres of balls that touch in two points are close to the middle between these: within r cos theta, and r is at
+/// most half the diagonal over sin theta.
+WallCell whole_of(const Bvh& bvh, double theta) {
+  const BvhBox& box = bvh.nodes().front().box;
+  const Point size = box.upper - box.lower;
+  const double beyond = 0.5 * length(size) / std::tan(theta);
+  return {.centre = 0.5 * (box.lower + box.upper),
+          .half = (0.5 * std::max({size[0], size[1], size[2]}) + beyond) * (1 + 0x1p-40)};
+}
 
 }  // namespace
 
@@ -132,9 +149,11 @@ Result<LeastWall> measure_least_wall(const IndexedMesh& mesh, const LeastWallOpt
     const WideTree tree(solid.value().bvh());
     const std::vector<SpokeCone> normals = normals_of(solid.value());
     try {
-      WallField field = {solid.value(), tree, normals, options};
+      const WallCell whole = whole_of(solid.value().bvh(), options.object_angle);
+      WallField field = {
+          solid.value(), tree, normals, options, kVertexShare * whole.half, kRoundings * solid.value().rounding()};
       if (options.limit == 0) field.options.limit = mesh.longest_side();
-      return LeastWallSearch(field).run(progress, stop);
+      return LeastWallSearch(field, whole, stop).run(progress);
     } catch (const LoopStopped&) {
       return Error{ErrorCode::kInterrupted, "interrupted"};
     }

@@ -19,7 +19,7 @@ struct SpokeCone {
 /// What is known of balls with two contacts and an object angle of at least theta.
 struct PairsOfContacts {
   bool are_possible = true;  ///< There may be such balls.
-  bool are_apart = false;    ///< The spokes of each are in different groups, of less than half of their angle each.
+  bool are_apart = false;    ///< The half-angle of each cap is less than half the angle between the axes of both.
   double object_angle = 0;   ///< Of the balls whose spokes are each in one cap, at least.
 };
 

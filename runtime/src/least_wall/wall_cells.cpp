@@ -29,7 +29,7 @@ constexpr std::size_t kMostTriangles = 400;
 double least_radius_around(double d, double h, double theta) {
   if (!(d > h)) return 0;
   const double sine = std::sin(theta), cosine = std::cos(theta);
-  const double squared = d * d - h * h * sine * sine;
+  const double squared = d * d * (1 - kBoundShare) - h * h * sine * sine;
   const double radius = std::sqrt(std::max(0.0, squared)) - h * cosine;
   return std::max(0.0, radius - kBoundShare * d);
 }
@@ -61,11 +61,10 @@ std::vector<SpokeCone> normals_of(const Solid& solid) {
 }
 
 WallCells::WallCells(const WallField& field)
-    : field_(field),
-      toward_(field.options.side == ThicknessSide::kWalls ? 1 : -1),
-      rounding_(4 * field.solid.rounding()) {}
+    : field_(field), toward_(field.options.side == ThicknessSide::kWalls ? 1 : -1), rounding_(field.rounding) {}
 
-std::optional<WallBall> WallCells::examine(WallCell& cell, double best) {
+/// Where the search for a ball begins, if one is of interest.
+std::optional<WallCells::Start> WallCells::bound(WallCell& cell, double best) {
   const double theta = field_.options.object_angle;
   const double h = std::numbers::sqrt3 * cell.half * (1 + kBoundShare) + rounding_;
   const BvhHit hit = field_.tree.closest(field_.solid.bvh(), cell.centre);
@@ -76,9 +75,11 @@ std::optional<WallBall> WallCells::examine(WallCell& cell, double best) {
     cell.least = kInfinite;
     return std::nullopt;
   }
-  // A contact of a ball around m is no farther from c than d(m) + h <= d + 2 h.
-  gather(cell.centre, d + 2 * h + rounding_, hit.triangle);
-  if (near_.size() > kMostTriangles) return std::nullopt;
+  // A contact of a ball around m is no farther from c than d(m) + h <= d + 2 h. Beside the apex of a fan all cells are
+  // near all of its triangles.
+  const std::size_t most = cell.half <= field_.small ? near_.max_size() : kMostTriangles;
+  gather(cell.centre, d + 2 * h + rounding_, hit.triangle, most);
+  if (near_.size() > most) return std::nullopt;
   const Known by_directions = pairs_by_directions(d, h), by_normals = pairs_by_normals();
   if (!by_normals.are_possible || !by_directions.are_possible) {
     cell.least = kInfinite;
@@ -87,14 +88,25 @@ std::optional<WallBall> WallCells::examine(WallCell& cell, double best) {
   cell.vertex = common_vertex();
   const double angle = std::max(by_normals.object_angle, by_directions.object_angle);
   cell.least = std::max({cell.least, by_normals.least_radius, least_radius_around(d - rounding_, h, angle)});
-  if (cell.least >= best || !(d > 0)) return std::nullopt;
-  const Point direction = (1 / d) * (cell.centre - hit.point);
-  const std::optional<double> step = step_to_middle(direction, d);
-  if (!step || *step > h) return std::nullopt;
+  if (cell.least >= best) return std::nullopt;
+  return Start{hit.point, d, h, angle};
+}
+
+std::optional<WallBall> WallCells::examine(WallCell& cell, double best) {
+  const std::optional<Start> start = bound(cell, best);
+  if (!start) return std::nullopt;
+  // By the rounded contact: the distance is more accurate than its coordinates.
+  const Point away = cell.centre - start->contact;
+  if (!(length(away) > 0)) return std::nullopt;
+  const Point direction = (1 / length(away)) * away;
+  const std::optional<double> step = step_to_middle(direction, start->distance);
+  if (!step || *step > start->h) return std::nullopt;
   const Point middle = cell.centre + *step * direction;
   const double at_middle = std::sqrt(field_.tree.closest(field_.solid.bvh(), middle).squared_distance);
-  cell.least = std::max(cell.least, least_radius_around(at_middle - rounding_, h + *step, angle));
-  return d + *step < 2 * best ? touch(hit.point, direction, d + *step) : std::nullopt;
+  const double around = least_radius_around(at_middle - rounding_, start->h + *step, start->object_angle);
+  cell.least = std::max(cell.least, around);
+  const double radius = length(away) + *step;
+  return radius < 2 * best ? touch(start->contact, direction, radius) : std::nullopt;
 }
 
 bool WallCells::is_on_other_side(const Point& centre, double distance) const {
@@ -102,14 +114,14 @@ bool WallCells::is_on_other_side(const Point& centre, double distance) const {
   return side == (toward_ > 0 ? SolidSide::kOutside : SolidSide::kInside);
 }
 
-void WallCells::gather(const Point& centre, double radius, std::uint32_t nearest_triangle) {
+void WallCells::gather(const Point& centre, double radius, std::uint32_t nearest_triangle, std::size_t most) {
   const Bvh& bvh = field_.solid.bvh();
   gather_within(bvh, centre, radius, nearby_);
   near_.clear();
   nearest_ = 0;
   const double squared = radius * radius * (1 + kBoundShare);
   for (const std::uint32_t position : nearby_) {
-    if (near_.size() > kMostTriangles) return;
+    if (near_.size() > most) return;
     if (clearly_beyond(centre, bvh.corners()[position], squared)) continue;
     const NearestOffset offset = nearest_on_triangle(centre, bvh.corners()[position]);
     if (offset.squared_distance > squared) continue;
@@ -164,7 +176,9 @@ WallCells::Known WallCells::pairs_by_directions(double distance, double h) {
   for (const Near& near : near_) {
     const double size = std::sqrt(near.offset.squared_distance);
     const double squared = near.offset.squared_distance * (1 - kBoundShare);
-    const double beside = std::sqrt(std::max(0.0, reach * reach - squared)) + rounding_;
+    // The foot on a thin triangle may be off by the square root of the product of its rounding and its length.
+    const double beside =
+        std::sqrt(std::max(0.0, reach * reach - squared)) + 2 * std::sqrt(rounding_ * size) + rounding_;
     cones_.push_back({(1 / size) * near.offset.offset, std::atan(beside / size) * (1 + kBoundShare) + by_centre});
   }
   const PairsOfContacts pairs = groups_.divide(cones_, nearest_, theta);
@@ -233,7 +247,7 @@ bool WallCells::is_free(WallCell cell) {
   for (std::size_t done = 0; done < open.size(); ++done) {
     WallCell next = open[done];
     next.least = 0;
-    examine(next, kInfinite);
+    bound(next, kInfinite);
     if (next.least == kInfinite) continue;
     if (!(next.half > least) || open.size() > kMostCells) return false;
     for (std::size_t i = 0; i < 8; ++i) open.push_back(next.part(i));
@@ -255,7 +269,7 @@ std::optional<double> WallCells::step_to_middle(const Point& direction, double d
 }
 
 /// The ball that touches at a contact and is tangent to the plane across the direction there: it shrinks until it holds
-/// no other point of the boundary. Such balls shrink to a medial one from any radius.
+/// no other point of the boundary. None if it never holds one, or if the object angle is too small then.
 std::optional<WallBall> WallCells::touch(const Point& contact, const Point& direction, double radius) const {
   constexpr int kMostSteps = 30;
   std::optional<Point> other;

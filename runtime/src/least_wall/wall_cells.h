@@ -24,6 +24,8 @@ struct WallField {
   const WideTree& tree;
   const std::vector<SpokeCone>& normals;
   LeastWallOptions options;
+  double small = 0;     ///< Half the side of cells in which fans of any number of triangles are examined.
+  double rounding = 0;  ///< Of distances and of the centres of cells.
 };
 
 /// A cube.
@@ -31,7 +33,7 @@ struct WallCell {
   Point centre = {0, 0, 0};
   double half = 0;   // of its side
   double least = 0;  // no medial ball with the object angle around a centre in it has a smaller radius
-  std::optional<Point> vertex = std::nullopt;  // of all triangles within reach
+  std::optional<Point> vertex = std::nullopt;  // of all triangles within reach of this cell, or of one that it is in
   std::uint64_t number = 0;
 
   WallCell part(std::size_t index) const;
@@ -51,6 +53,12 @@ class WallCells {
   double free_around(const Point& vertex);
 
  private:
+  struct Start {
+    Point contact;        // the point nearest to the centre of the cell
+    double distance;      // of that
+    double h;             // half the diagonal of the cell
+    double object_angle;  // of all balls around centres in it, at least
+  };
   /// What is known of the balls around centres in the cell.
   struct Known {
     bool are_possible = true;
@@ -59,7 +67,8 @@ class WallCells {
   };
 
   bool is_on_other_side(const Point& centre, double distance) const;
-  void gather(const Point& centre, double radius, std::uint32_t nearest_triangle);
+  std::optional<Start> bound(WallCell& cell, double best);
+  void gather(const Point& centre, double radius, std::uint32_t nearest_triangle, std::size_t most);
   Known pairs_by_normals();
   Known pairs_by_directions(double distance, double h);
   void bound_by_heights(Known& known) const;

@@ -76,6 +76,7 @@ void SurfaceTips::find_normals() {
   for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
     const Triangle& corners = mesh_.triangles[t];
     const Point normal = triangle_normal(mesh_, t);
+    if (!(length(normal) > 0)) continue;
     for (std::size_t k = 0; k < 3; ++k) {
       const Point& p = mesh_.vertices[corners[k]];
       const Point a = mesh_.vertices[corners[(k + 1) % 3]] - p, b = mesh_.vertices[corners[(k + 2) % 3]] - p;

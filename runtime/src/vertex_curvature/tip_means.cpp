@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/point_ops.h"
+#include "curvature/polynomial_fit.h"
 #include "curvature/window_gap.h"
 
 namespace medial_vk {
@@ -49,10 +50,12 @@ class TipMeans::PlaneFit {
     const Eigen::Matrix2d spread = moments.block<2, 2>(1, 1) / sum_ - centre * centre.transpose();
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(spread);
     if (axes.eigenvalues()[0] > 0) even_ = axes.operatorInverseSqrt();
-    if (members.size() >= kLeastLinear && axes.eigenvalues()[0] > kLeastSpread) {
-      terms_ = members.size() >= least_quadratic ? 6 : 3;
-    }
-    inverse_.topLeftCorner(terms_, terms_) = moments.topLeftCorner(terms_, terms_).inverse();
+    const bool is_wide = members.size() >= kLeastLinear && axes.eigenvalues()[0] > kLeastSpread;
+    // Places on a conic, such as two lines, determine no polynomial of degree 2.
+    if (is_wide && members.size() >= least_quadratic && invert<6>(moments)) return;
+    if (is_wide && invert<3>(moments)) return;
+    terms_ = 1;
+    inverse_(0, 0) = 1 / sum_;
   }
 
   static Row row_at(double x, double y) {
@@ -78,6 +81,18 @@ class TipMeans::PlaneFit {
   }
 
  private:
+  /// Of the first terms. False if the places do not determine their coefficients.
+  template <int Terms>
+  bool invert(const Eigen::Matrix<double, 6, 6>& moments) {
+    NormalEquations<Terms> equations;
+    if (!equations.factor(moments.topLeftCorner<Terms, Terms>())) return false;
+    for (int i = 0; i < Terms; ++i) {
+      inverse_.block<Terms, 1>(0, i) = equations.solve(NormalEquations<Terms>::Vector::Unit(i));
+    }
+    terms_ = Terms;
+    return true;
+  }
+
   const std::vector<Member>& members_;
   Eigen::Matrix<double, 6, 6> inverse_ = Eigen::Matrix<double, 6, 6>::Zero();
   Eigen::Matrix2d even_ = Eigen::Matrix2d::Identity();
@@ -189,6 +204,7 @@ TipMean TipMeans::at(const Point& p, const Point& normal, SurfaceWalk& walk) con
   Point middle = centres_[nearest];
   std::vector<Member> found = members(nearest, middle);
   for (int i = 0; i < 2; ++i) {
+    if (found.empty()) return out;  // the place was far from all centres
     middle = touching_centre(found, middle, p, tangents);
     found = members(nearest, middle);
   }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/point_ops.h"
+#include "curvature/polynomial_fit.h"
 
 namespace medial_vk {
 namespace {
@@ -249,13 +250,16 @@ TouchingBalls::Bends TouchingBalls::bend_of_vertices(const Rim& rim, double radi
     ++count;
   }
   if (count < kLeastRows) return {0, 1 / radius};
-  const Eigen::Matrix<double, 5, 5> inverse = moments.inverse();
-  const Row found = inverse * right;
+  NormalEquations<5> equations;
+  if (!equations.factor(moments)) return {0, 1 / radius};
+  const Row found = equations.solve(right);
   Eigen::Matrix2d form;
   form << found[2], found[3], found[3], found[4];
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(0.5 * (form + form.transpose()));
   const double residual = std::max(0.0, squares - found.dot(right)) / static_cast<double>(count - 5);
-  const double error = 2 * std::sqrt(residual * inverse.diagonal().tail<3>().maxCoeff());
+  const double variance =
+      std::max({equations.inverse_diagonal(2), equations.inverse_diagonal(3), equations.inverse_diagonal(4)});
+  const double error = 2 * std::sqrt(residual * variance);
   if (!(error < 1) || !(axes.eigenvalues()[0] < 1 + error)) return {0, 1 / radius};  // nor if it is NaN
   if (axes.eigenvalues()[1] - axes.eigenvalues()[0] > 2 * error) {
     along = (w * axes.eigenvectors()(0, 0) + t * axes.eigenvectors()(1, 0)).normalized();

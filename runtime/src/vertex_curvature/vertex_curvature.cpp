@@ -90,8 +90,8 @@ class AlongSurface {
     const Touch touch = touching_.at(p, around_);
     if (touch.state == CurvatureState::kFew) {
       // Beyond the last tips, the normal of the mesh tells whether the boundary goes on as they say.
-      const bool goes_on = agrees && angle_between(mean.at.normal, normal) < kClearTurn;
-      return goes_on || !mean.is_outside || !agrees ? of_mean : unknown(mean);
+      const bool turns_off = agrees && mean.is_outside && angle_between(mean.at.normal, normal) >= kClearTurn;
+      return turns_off ? unknown(mean) : of_mean;
     }
     if (!is_known(of_mean.state) || touch.depth > 0.5 * spacing_) return of_touch(touch);
     // At the border of a cap: the one whose normal is that of the mesh, or the better one.

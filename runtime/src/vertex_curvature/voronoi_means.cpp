@@ -18,13 +18,14 @@ constexpr std::uint32_t kNoVertex = 0xffffffffu;
 class FacingVertices {
  public:
   explicit FacingVertices(const SurfaceTips& tips) : tips_(tips), grid_(tips.mesh().vertices, mean_edge(tips.mesh())) {
-    first_reach_ = mean_edge(tips.mesh());
     Point lower = tips.mesh().vertices[0], upper = lower;
     for (const Point& p : tips.mesh().vertices) {
       lower = least(lower, p);
       upper = greatest(upper, p);
     }
     most_reach_ = length(upper - lower);
+    constexpr double kLeastShare = 1e-6;  // else a mesh whose edges have no length would have no last reach
+    first_reach_ = std::max(mean_edge(tips.mesh()), kLeastShare * most_reach_);
   }
 
   std::uint32_t of(const SurfaceTip& tip) const {

@@ -65,7 +65,7 @@ std::string curvature_summary(const CurvatureSummary& summary, const std::vector
   for (std::size_t i = 0; i < summary.tips.size(); ++i) {
     if (summary.tips[i] == 0) continue;
     states += fmt::format("{}{} {}", states.empty() ? "" : ", ", grouped(summary.tips[i]),
-                          name_of(static_cast<CurvatureState>(i)));
+                          state_name(static_cast<CurvatureState>(i)));
   }
   text += labelled("tips", states);
   text += labelled("kappa 1", range_text(summary.kappa[0]));
@@ -83,7 +83,7 @@ std::string curvature_report(const CurvatureSummary& summary, const std::vector<
   report["balls"] = summary.balls;
   report["spacing"] = summary.spacing;
   for (std::size_t i = 0; i < summary.tips.size(); ++i) {
-    report["tips"][name_of(static_cast<CurvatureState>(i))] = summary.tips[i];
+    report["tips"][std::string(state_name(static_cast<CurvatureState>(i)))] = summary.tips[i];
   }
   report["kappa_1"] = range_json(summary.kappa[0]);
   report["kappa_2"] = range_json(summary.kappa[1]);

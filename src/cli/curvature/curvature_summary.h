@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "boundary_fields/boundary_fields.h"
 #include "medial_vk/measurements.h"
 #include "output/atomic_files/atomic_file.h"
 #include "output/curvature_files/curvature_files.h"
@@ -19,13 +20,11 @@ struct ValueRange {
 };
 
 struct CurvatureSummary {
-  static constexpr std::size_t kStates = 9;  ///< Of CurvatureState.
-
   std::string balls_file;
   std::string method;
   std::uint64_t balls = 0;
   double spacing = 0;
-  std::array<std::uint64_t, kStates> tips = {};  ///< By state.
+  std::array<std::uint64_t, kCurvatureStates> tips = {};  ///< By state.
   std::array<ValueRange, 2> kappa = {};
   ValueRange error = {};
 };
@@ -35,7 +34,7 @@ CurvatureSummary summarize(const std::string& balls_file, const CurvatureTable& 
 std::string curvature_summary(const CurvatureSummary& summary, const std::vector<StageTime>& times,
                               std::span<const OutputFile> files, bool verbose);
 
-/// The bytes of --report (docs/report.md).
+/// The bytes of --report (docs/formats.md, Curvatures).
 std::string curvature_report(const CurvatureSummary& summary, const std::vector<StageTime>& times);
 
 }  // namespace medial_vk::cli

@@ -127,7 +127,9 @@ class ExtractionRun {
       }
       if (options_.verbose) print_message(details(record));
       if (Status status = print_places(*run); !status) return status;
-      if (Status status = verdict(record.boundary.walls); !status && failed) failed = status;
+      if (Status status = verdict(record.boundary.walls); !status && failed) {
+        failed = runs_.size() > 1 ? Error{status.error().code, record.part + ": " + status.error().message} : status;
+      }
       if (!record.check) continue;
       if (Status status = print_table(*run, check_table(*record.check)); !status) return status;
       if (Status status = verdict(*record.check); !status && failed) failed = status;

@@ -36,6 +36,7 @@ Result<std::vector<ThinPlace>> find_places(const IndexedMesh& mesh, const WallRe
   how.side = record.side;
   how.delta = std::min(options.thickness_delta * mesh.longest_side(), kDeltaShare * record.demanded);
   how.limit = 2 * record.demanded;
+  how.width = kHalfShare;
   how.threads = options.threads;
   Result<std::vector<Thickness>> at_points = measure_thickness(mesh, points, how, on_progress);
   if (!at_points) return at_points.error();
@@ -95,8 +96,9 @@ std::string describe_walls(const WallRecord& record) {
   const Bounds& least = record.found.diameter;
   const std::string wanted = fmt::format("{:.6g}", record.demanded);
   if (record.verdict == WallRecord::Verdict::kThickEnough) {
-    return fmt::format("no {} is thinner than {}: proved for object angles of {:g} and more", name_of(record), wanted,
-                       record.object_angle);
+    return fmt::format(
+        "no {} is thinner than {:.4g}, which is {} to a hundredth: proved for object angles of {:g} and more",
+        name_of(record), least.lower, wanted, record.object_angle);
   }
   if (record.verdict == WallRecord::Verdict::kUndecided) {
     return fmt::format("no {} thinner than {} was found, but only {:.6g} is proved", name_of(record), wanted,
@@ -131,10 +133,12 @@ std::string places_table(const std::vector<WallRecord>& records) {
 }
 
 Status verdict(const std::vector<WallRecord>& records) {
+  std::string failed;
   for (const WallRecord& record : records) {
-    if (record.verdict != WallRecord::Verdict::kThickEnough) return Error{kWallTooThin, describe_walls(record)};
+    if (record.verdict == WallRecord::Verdict::kThickEnough) continue;
+    failed += (failed.empty() ? "" : "; ") + describe_walls(record);
   }
-  return {};
+  return failed.empty() ? Status() : Status(Error{kWallTooThin, failed});
 }
 
 }  // namespace medial_vk::cli

@@ -39,7 +39,8 @@ Output:
                         for each; .npz (NumPy) or .json: by ball; "-": CSV on
                         standard output (default: BALLS's name with
                         .curvature.ply, here)
-      --report FILE     a .json with counts of states and ranges of curvatures
+      --report FILE     counts of states and ranges of curvatures as JSON; "-":
+                        standard output
 
 Other:
   -q, --quiet           only errors

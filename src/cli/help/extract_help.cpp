@@ -77,11 +77,13 @@ What is measured on the boundary, for summary, report, page and these files:
                         a millisecond of a core for each
       --boundary FILE   the mesh as .ply, .glb or .vtp (ParaView) with what is
                         measured at its vertices: both, unless --thickness or
-                        --curvature names one
+                        --curvature names one; "-": PLY on standard output
       --boundary-edge E  with edges cut until none is longer than E times the
                         longest side, 0.001 to 1 (default: as they are), so that
-                        large triangles have values inside
-      --thickness-histogram FILE  .svg or .csv: thickness by area
+                        large triangles have values inside; curvature takes a
+                        time that grows with the square of their number
+      --thickness-histogram FILE  .svg or .csv: thickness by area; "-": .csv on
+                        standard output
       --thickness-delta D  balls count at a point if they come within D times
                         the longest side, below 0.1 (default 0.0005)
       --thickness-width W  the search for a point ends when its interval is no

@@ -31,11 +31,13 @@ ThicknessBins bins_of(const ThicknessRecord& record) {
   const auto bin_of = [&](double thickness) {
     return std::min(static_cast<std::size_t>(kThicknessBins * thickness / bins.upper), kThicknessBins - 1);
   };
-  const double share = 1 / static_cast<double>(std::max<std::size_t>(record.intervals.size(), 1));
   for (const Bounds& interval : record.intervals) {
-    bins.by_lower_ends[bin_of(interval.lower)] += share;
-    bins.by_upper_ends[bin_of(interval.upper)] += share;
+    ++bins.by_lower_ends[bin_of(interval.lower)];
+    ++bins.by_upper_ends[bin_of(interval.upper)];
   }
+  const auto count = static_cast<double>(std::max<std::size_t>(record.intervals.size(), 1));
+  for (double& share : bins.by_lower_ends) share /= count;
+  for (double& share : bins.by_upper_ends) share /= count;
   return bins;
 }
 

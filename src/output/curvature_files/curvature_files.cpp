@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/point_ops.h"
+#include "boundary_fields/boundary_fields.h"
 #include "medial_vk/version.h"
 #include "output/atomic_files/little_endian.h"
 #include "output/numpy_files/npz_writer.h"
@@ -24,7 +25,7 @@ std::string json_point(const Point& p) {
 std::string json_tip(const TipCurvature& tip) {
   return fmt::format(
       R"({{"state":"{}","spoke":{},"kappa":[{},{}],"directions":[{},{}],"error":{},"spread":{},"window":{}}})",
-      name_of(tip.state), json_point(tip.normal), json_number(tip.kappa[0]), json_number(tip.kappa[1]),
+      state_name(tip.state), json_point(tip.normal), json_number(tip.kappa[0]), json_number(tip.kappa[1]),
       json_point(tip.directions[0]), json_point(tip.directions[1]), json_number(tip.error), json_number(tip.spread),
       json_number(tip.window));
 }
@@ -48,30 +49,6 @@ class TipArray {
 
 }  // namespace
 
-const char* name_of(CurvatureState state) {
-  switch (state) {
-    case CurvatureState::kKnown:
-      return "known";
-    case CurvatureState::kCut:
-      return "cut";
-    case CurvatureState::kCurve:
-      return "curve";
-    case CurvatureState::kPoint:
-      return "point";
-    case CurvatureState::kSeam:
-      return "seam";
-    case CurvatureState::kFew:
-      return "few";
-    case CurvatureState::kNested:
-      return "nested";
-    case CurvatureState::kFocal:
-      return "focal";
-    case CurvatureState::kUncertain:
-      break;
-  }
-  return "uncertain";
-}
-
 const char* name_of(CurvatureMethod method) { return method == CurvatureMethod::kFits ? "fits" : "source"; }
 
 Point tip_position(const Ball& ball, const TipCurvature& tip) {
@@ -87,7 +64,7 @@ std::string encode_curvature_csv(const CurvatureTable& table) {
     const BallCurvature& known = table.curvature.balls[i];
     for (std::size_t side = 0; side < 2; ++side) {
       const TipCurvature& tip = known.tips[side];
-      out += fmt::format("{},{},{},{},{},{},{}", i, side, name_of(tip.state), ball.centre[0], ball.centre[1],
+      out += fmt::format("{},{},{},{},{},{},{}", i, side, state_name(tip.state), ball.centre[0], ball.centre[1],
                          ball.centre[2], ball.radius);
       for (const double x : tip.normal) out += fmt::format(",{}", x);
       for (const double x : tip.kappa) out += fmt::format(",{}", x);

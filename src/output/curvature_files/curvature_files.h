@@ -18,7 +18,6 @@ struct CurvatureTable {
 };
 
 /// The word in tables: "known", "cut", "curve", "point", "seam", "few", "nested", "focal" or "uncertain".
-const char* name_of(CurvatureState state);
 /// "fits" or "source".
 const char* name_of(CurvatureMethod method);
 

@@ -38,11 +38,13 @@ class Strokes {
   Strokes(const picture::Surface& corners, const Mesh& mesh, const BoundaryFields& fields) {
     for (std::size_t corner = 0; corner < corners.positions.size(); ++corner) {
       const std::uint32_t vertex = mesh.triangles[corner / 3][corner % 3];
+      const Vector3f along = vector_at(*fields.find(field_names::kDirection1), vertex);
+      const Vector3f across = vector_at(*fields.find(field_names::kDirection2), vertex);
       const Vector3f& at = corners.positions[corner];
-      if (!take(at)) continue;
+      if ((along.hasNaN() && across.hasNaN()) || !take(at)) continue;
       const Vector3f& normal = corners.normals[corner];
-      add(at, normal, vector_at(*fields.find(field_names::kDirection1), vertex), kLongStroke);
-      add(at, normal, vector_at(*fields.find(field_names::kDirection2), vertex), kShortStroke);
+      add(at, normal, along, kLongStroke);
+      add(at, normal, across, kShortStroke);
     }
   }
 
