@@ -49,8 +49,9 @@ void add_scene(const IndexedMesh& mesh, const std::string& name, RobotAndScene& 
 
 Status load_scene_body(const std::string& path, const ClearanceOptions& options, RobotAndScene& all,
                        std::vector<StageTime>& times) {
-  const Result<BodyFile> file = [&] {
+  const Result<BodyFile> file = [&]() -> Result<BodyFile> {
     const EndAtOnce guard;  // a pipe may wait
+    if (interrupted()) return stopped();
     return read_body_file(path);
   }();
   if (!file) return file.error();

@@ -90,8 +90,9 @@ class DistanceRun {
   Status load_file(const std::string& path, std::optional<LoadedBody>& side) {
     progress_.update("read", 0);
     Stopwatch stopwatch;
-    const Result<BodyFile> file = [&] {
+    const Result<BodyFile> file = [&]() -> Result<BodyFile> {
       const EndAtOnce guard;  // a pipe may wait
+      if (interrupted()) return stopped();
       return read_body_file(path);
     }();
     if (!file) return file.error();

@@ -182,6 +182,7 @@ class FollowRun {
   Status take_frame(std::size_t i, std::size_t count) {
     {
       const EndAtOnce guard;  // a pipe may wait
+      if (interrupted()) return stopped();
       if (Status status = motion_->read_frame(i, frame_); !status) return status;
     }
     if (Status status = check_size(frame_.positions, frame_.name); !status) return status;
@@ -215,7 +216,9 @@ class FollowRun {
     if (writes_table(options_)) {
       if (Status status = follower_->measure_distances(vertices, *mesh_, frame); !status) return status;
     }
-    if (options_.check) check(vertices, frame);
+    if (options_.check) {
+      if (Status status = check(vertices, frame); !status) return status;
+    }
     if (keeps_vertices && (!options_.html.empty() || !options_.picture.empty())) {
       for (const Point& p : vertices) {
         frame.vertices.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
@@ -226,14 +229,15 @@ class FollowRun {
   }
 
   /// By the reference, which cannot be stopped half-way; nothing is lost if the process ends.
-  void check(const std::vector<Point>& vertices, const FollowedFrame& frame) {
+  Status check(const std::vector<Point>& vertices, const FollowedFrame& frame) {
     const EndAtOnce while_checked;
+    if (interrupted()) return stopped();
     std::vector<Ball> present;
     std::ranges::copy_if(frame.balls, std::back_inserter(present), [](const Ball& ball) { return ball.radius > 0; });
     const CheckReport report = follower_->check(moved(mesh_->prepared(), vertices), present);
     if (check_.lines.empty()) {
       check_.lines = report.lines;
-      return;
+      return {};
     }
     for (std::size_t i = 0; i < report.lines.size(); ++i) {
       CheckLine& line = check_.lines[i];
@@ -244,6 +248,7 @@ class FollowRun {
       line.failed += report.lines[i].failed;
       line.worst = std::max(line.worst, report.lines[i].worst);
     }
+    return {};
   }
 
   Status rig() {

@@ -276,6 +276,7 @@ class MotionFitRun {
   Status make_file() {
     if (options_.check) {
       const EndAtOnce while_checked;
+      if (interrupted()) return stopped();
       check_ = check_balls_inside(mesh_->prepared(), result_);
     }
     SphereFile file;
