@@ -32,9 +32,19 @@ MEDIAL_VK_INLINE std::array<float, 8> stored(const EightFloats& floats) {
 }
 
 MEDIAL_VK_INLINE EightFloats square_root(const EightFloats& floats) {
+#if defined(__SSE__) && defined(__GNUC__)
+  using FourFloats = float __attribute__((vector_size(16)));
+  std::array<FourFloats, 2> halves;
+  std::memcpy(halves.data(), &floats, sizeof floats);
+  for (FourFloats& half : halves) half = __builtin_ia32_sqrtps(half);
+  EightFloats roots;
+  std::memcpy(&roots, halves.data(), sizeof roots);
+  return roots;
+#else
   std::array<float, 8> values = stored(floats);
   for (float& value : values) value = std::sqrt(value);
   return load(values);
+#endif
 }
 
 MEDIAL_VK_INLINE EightFloats select(const EightInts& where, const EightFloats& yes, const EightFloats& no) {

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "base/eight_floats.h"
 #include "medial_vk/bvh.h"
 
 namespace medial_vk {
@@ -41,10 +42,16 @@ class WideTree {
   using Eight = std::array<float, kWidth>;
 
   struct alignas(32) Node {
-    std::array<Eight, 3> lower, upper;         // rounded outwards
-    std::array<std::uint32_t, kWidth> below;   // index of a node, or kBlock and that of a block
-    std::array<std::uint32_t, kWidth> origin;  // the nodes of the Bvh with these boxes
-    std::uint32_t count = 0;                   // of used children, which are the first
+    std::array<Eight, 3> lower, upper;  // rounded outwards
+    /// The triangles of a child are between two planes across an axis through the middle of its box, at the heights
+    /// `low` and `high` over the middle, and within a radius of the axis. A surface that is nearly flat is in a thin
+    /// disk, whatever its direction.
+    std::array<Eight, 3> axis = {};
+    Eight low = {}, high = {}, radius = {};
+    std::array<std::uint32_t, kWidth> below = {};                  // index of a node, or kBlock and that of a block
+    std::array<std::uint32_t, kWidth> origin = {};                 // the nodes of the Bvh with these boxes
+    std::array<std::uint32_t, kWidth> first = {}, triangles = {};  // the positions below each child, and their number
+    std::uint32_t count = 0;                                       // of used children, which are the first
   };
   /// Triangles that follow each other in Bvh::order().
   struct alignas(32) Block {
@@ -56,6 +63,13 @@ class WideTree {
   std::uint32_t add_node(const Bvh& bvh, const Ranges& ranges, std::uint32_t origin);
   std::uint32_t add_blocks(std::uint32_t first, std::uint32_t count);
   std::vector<std::uint32_t> children_of(const Bvh& bvh, const Ranges& ranges, std::uint32_t origin) const;
+  void fit_box(const Bvh& bvh, Node& node, std::size_t k) const;
+  void fit_disk(const Bvh& bvh, Node& node, std::size_t k) const;
+  /// Of a box along an axis, eight of them or one, with equal rounding.
+  template <class Number>
+  static MEDIAL_VK_INLINE Number middle_of(const Number& lower, const Number& upper) {
+    return 0.5f * (lower + upper);
+  }
   /// Relative to the centre, in units in which the box has a size of about one.
   Point scaled(const Point& p) const;
 
