@@ -26,12 +26,6 @@ struct Spheres {
     return Body::create(test::indexed(prepare_mesh(test::make_sphere(radius, triangles)).value())).value();
   }
 
-  BodyGroup group() const {
-    const std::vector<GroupPart> parts = {{outer, 0}, {inner, 1}};
-    const std::vector<LinkPair> pairs = {{0, 1}};
-    return BodyGroup::create(parts, 2, pairs).value();
-  }
-
   Body outer, inner;
 };
 
@@ -51,6 +45,12 @@ std::optional<ErrorCode> error_after_stop(const Search& search) {
   source.request_stop();
   thread.join();
   return code;
+}
+
+BodyGroup group_of(const Body& a, const Body& b) {
+  const std::vector<GroupPart> parts = {{a, 0}, {b, 1}};
+  const std::vector<LinkPair> pairs = {{0, 1}};
+  return BodyGroup::create(parts, 2, pairs).value();
 }
 
 constexpr DistanceOptions kSurfaces = {.surfaces_only = true};
@@ -85,9 +85,8 @@ TEST(StoppedDistances, EndWithinAPose) {
 TEST(StoppedLeastDistances, EndWithAnErrorAndLeaveResultsAsTheyAre) {
   const std::vector<Ball> ball = {{{0, 0, 0}, 1}};
   const Body round = Body::create(ball, ball).value();
-  const std::vector<GroupPart> parts = {{round, 0}, {round, 1}};
-  const std::vector<LinkPair> pairs = {{0, 1}};
-  const BodyGroup of_balls = BodyGroup::create(parts, 2, pairs).value(), of_meshes = Spheres(200).group();
+  const Spheres spheres(200);
+  const BodyGroup of_balls = group_of(round, round), of_meshes = group_of(spheres.outer, spheres.inner);
   std::stop_source source;
   const std::stop_token stop = source.get_token();
   const std::vector<Pose> poses(2 * 300);
@@ -110,8 +109,10 @@ TEST(StoppedLeastDistances, EndWithAnErrorAndLeaveResultsAsTheyAre) {
   }
 }
 
+// The tiny sphere is in the middle of a cavity, so that the solids are apart.
 TEST(StoppedLeastDistances, EndWithinAConfiguration) {
-  const BodyGroup group = Spheres(12000).group();
+  const Body shell = Body::create(test::indexed(prepare_mesh(test::make_shell(12000, 12000)).value())).value();
+  const BodyGroup group = group_of(shell, Spheres::body_of(1e-6, 12000));
   EXPECT_EQ(error_after_stop([&](const std::stop_token& stop) {
               return least_distance(group, std::vector<Pose>(2), {.exact = true}, {}, stop);
             }),
