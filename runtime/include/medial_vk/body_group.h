@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <stop_token>
 #include <utility>
 
 #include "medial_vk/pose.h"
@@ -91,15 +92,19 @@ struct LeastDistance {
 /// `start` may be the result of an earlier query of the same group: the search then begins with its parts, and is
 /// faster if the poses have changed little. Allocates nothing. A group without compared parts is free, at infinity.
 /// Precondition: the rows of the rotations are perpendicular unit vectors to within 1e-13. Where a coordinate of a
-/// shift is beyond 1e18, or no number, the interval may be 0 and infinity. Errors: kUsage (not one pose for each link,
-/// an option that is negative or no number, `exact` for a body without a mesh).
+/// shift is beyond 1e18, or no number, the interval may be 0 and infinity. A request to `stop` ends the search before
+/// its next part, or within two parts at the next comparison of triangles. Errors: kUsage (not one pose for each link,
+/// an option that is negative or no number, `exact` for a body without a mesh), kInterrupted.
 Result<LeastDistance> least_distance(const BodyGroup& group, std::span<const Pose> poses,
-                                     const GroupOptions& options = {}, const LeastDistance& start = {});
+                                     const GroupOptions& options = {}, const LeastDistance& start = {},
+                                     const std::stop_token& stop = {});
 
 /// The same for many configurations, each of which has a pose for each link; configuration i begins at `poses`[i
 /// times the number of links]. Most searches start from the result before them; the intervals do not depend on the
-/// number of threads. Further error: kUsage (`poses` has not so many poses for each of the `results`).
+/// number of threads. Further error: kUsage (`poses` has not so many poses for each of the `results`). After
+/// kInterrupted some results are those of their configurations, and the others are as before.
 Status least_distances(const BodyGroup& group, std::span<const Pose> poses, std::span<LeastDistance> results,
-                       const GroupOptions& options = {}, const BatchOptions& batch = {});
+                       const GroupOptions& options = {}, const BatchOptions& batch = {},
+                       const std::stop_token& stop = {});
 
 }  // namespace medial_vk

@@ -212,9 +212,9 @@ struct FirstContact {
 /// more than the tolerance after a time without proved contact. By conservative advancement: a time at which the
 /// distance is d is followed by one until which no point of b moves farther than d. Takes some tens of distances; more,
 /// up to the inverse of the tolerance, where the bodies slide past each other. Allocates nothing. Precondition: both
-/// poses are as for distance_bounds(). Errors: those of distance(); kUsage (an option that is negative, too small or no
-/// number).
+/// poses are as for distance_bounds(). A request to `stop` ends the search at its next comparison of triangles. Errors:
+/// those of distance(); kUsage (an option that is negative, too small or no number).
 Result<FirstContact> first_contact(const Body& a, const Body& b, const Motion& motion,
-                                   const ContactOptions& options = {});
+                                   const ContactOptions& options = {}, const std::stop_token& stop = {});
 
 }  // namespace medial_vk

@@ -60,6 +60,11 @@ MEDIAL_VK_INLINE EightInts greater(const EightInts& a, const EightInts& b) {
   return (is_greater & a) | (~is_greater & b);
 }
 
+MEDIAL_VK_INLINE EightInts lesser(const EightInts& a, const EightInts& b) {
+  const EightInts is_less = a < b;
+  return (is_less & a) | (~is_less & b);
+}
+
 MEDIAL_VK_INLINE EightFloats absolute(const EightFloats& floats) {
   return reinterpret_cast<EightFloats>(reinterpret_cast<EightInts>(floats) & std::int32_t{0x7fffffff});
 }
@@ -75,6 +80,13 @@ MEDIAL_VK_INLINE std::int32_t greatest_of(const EightInts& ints) {
   EightInts all = greater(ints, __builtin_shufflevector(ints, ints, 4, 5, 6, 7, 0, 1, 2, 3));
   all = greater(all, __builtin_shufflevector(all, all, 2, 3, 0, 1, 6, 7, 4, 5));
   all = greater(all, __builtin_shufflevector(all, all, 1, 0, 3, 2, 5, 4, 7, 6));
+  return all[0];
+}
+
+MEDIAL_VK_INLINE std::int32_t least_of(const EightInts& ints) {
+  EightInts all = lesser(ints, __builtin_shufflevector(ints, ints, 4, 5, 6, 7, 0, 1, 2, 3));
+  all = lesser(all, __builtin_shufflevector(all, all, 2, 3, 0, 1, 6, 7, 4, 5));
+  all = lesser(all, __builtin_shufflevector(all, all, 1, 0, 3, 2, 5, 4, 7, 6));
   return all[0];
 }
 

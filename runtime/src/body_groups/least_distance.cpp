@@ -3,10 +3,12 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <stop_token>
 #include <utility>
 
 #include "base/eight_floats.h"
 #include "base/format_text.h"
+#include "base/loop_watch.h"
 #include "base/parallel.h"
 #include "base/point_ops.h"
 #include "body_groups/group_parts.h"
@@ -44,12 +46,13 @@ struct CloseParts {
 /// One query. Preconditions of the public call hold.
 class LeastSearch {
  public:
-  LeastSearch(const BodyGroupImpl& group, const Pose* poses, const GroupOptions& options)
-      : group_(group), poses_(poses), options_(options) {
+  LeastSearch(const BodyGroupImpl& group, const Pose* poses, const GroupOptions& options, const std::stop_token& stop)
+      : group_(group), poses_(poses), options_(options), stop_(stop) {
     best_.lower = std::max(options.limit, std::numeric_limits<double>::min());
     reach_ = best_.lower;
   }
 
+  /// Throws LoopStopped after a request to stop.
   LeastDistance run(const LeastDistance& start) {
     begin(start);
     const auto sweep_all = [&]() __attribute__((always_inline)) {
@@ -94,6 +97,7 @@ class LeastSearch {
       return;
     }
     for (const std::uint32_t part : second.parts) {
+      if (stop_.stop_requested()) throw LoopStopped();
       const PlacedPart& placed = group_.placed[part];
       const Point away = (pose_b * placed.ball.centre) - pose_a.shift;
       std::array<float, 3> centre;
@@ -163,6 +167,7 @@ class LeastSearch {
   }
 
   void examine(const CloseParts& close, const LeastDistance* start) {
+    if (stop_.stop_requested()) throw LoopStopped();
     const GroupPart &a = group_.parts[close.part_a], &b = group_.parts[close.part_b];
     const PlacedPart &placed_a = group_.placed[close.part_a], &placed_b = group_.placed[close.part_b];
     const Pose &pose_a = poses_[close.link_a], &pose_b = poses_[close.link_b];
@@ -224,7 +229,7 @@ class LeastSearch {
       before.triangle_a = start->triangle_a;
       before.triangle_b = start->triangle_b;
     }
-    const Distance found = query.distance(options, before);
+    const Distance found = query.distance(options, before, stop_);
     shorten_lower(found.lower, parts, covers);
     if (found.upper < best_.upper) {
       best_.upper = found.upper;
@@ -254,6 +259,7 @@ class LeastSearch {
   const BodyGroupImpl& group_;
   const Pose* poses_;
   const GroupOptions& options_;
+  const std::stop_token& stop_;
   LeastDistance best_;
   double reach_;  // parts that are farther apart do not matter
   std::size_t count_ = 0;
@@ -274,29 +280,39 @@ Status check(const BodyGroupImpl& group, const GroupOptions& options) {
   return Error{ErrorCode::kUsage, "`exact` needs bodies that were created with their meshes"};
 }
 
+Error stopped() { return {ErrorCode::kInterrupted, "interrupted"}; }
+
 }  // namespace
 
 Result<LeastDistance> least_distance(const BodyGroup& group, std::span<const Pose> poses, const GroupOptions& options,
-                                     const LeastDistance& start) {
+                                     const LeastDistance& start, const std::stop_token& stop) {
   const BodyGroupImpl& in_group = Internals::of(group);
   if (Status status = check(in_group, options); !status) return status.error();
   if (poses.size() != in_group.links.size()) return poses_error(poses.size(), in_group.links.size(), 1);
-  return LeastSearch(in_group, poses.data(), options).run(start);
+  try {
+    return LeastSearch(in_group, poses.data(), options, stop).run(start);
+  } catch (const LoopStopped&) {
+    return stopped();
+  }
 }
 
 Status least_distances(const BodyGroup& group, std::span<const Pose> poses, std::span<LeastDistance> results,
-                       const GroupOptions& options, const BatchOptions& batch) {
+                       const GroupOptions& options, const BatchOptions& batch, const std::stop_token& stop) {
   const BodyGroupImpl& in_group = Internals::of(group);
   const std::size_t links = in_group.links.size();
   if (Status status = check(in_group, options); !status) return status;
   if (poses.size() != links * results.size()) return poses_error(poses.size(), links, results.size());
   constexpr std::size_t kBlock = 64;
-  parallel_blocks(results.size(), kBlock, batch.threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const LeastDistance start = i > begin ? results[i - 1] : LeastDistance{};
-      results[i] = LeastSearch(in_group, poses.data() + i * links, options).run(start);
-    }
-  });
+  try {
+    parallel_blocks(results.size(), kBlock, batch.threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const LeastDistance start = i > begin ? results[i - 1] : LeastDistance{};
+        results[i] = LeastSearch(in_group, poses.data() + i * links, options, stop).run(start);
+      }
+    });
+  } catch (const LoopStopped&) {
+    return stopped();
+  }
   return {};
 }
 

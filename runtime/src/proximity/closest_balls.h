@@ -19,4 +19,9 @@ struct ClosestBalls {
 ClosestBalls closest_balls(const BodyTree& a, const BodyTree& b, const FloatPose& pose, const BallPair& start,
                            float enough, float most = kFarther);
 
+/// Balls near the closest points of two balls of other sets of the bodies, each in its frame: where closest_balls() may
+/// start. Preconditions and times are the same.
+BallPair balls_near(const BodyTree& a, const BodyTree& b, const FloatPose& pose, const FloatBall& of_a,
+                    const FloatBall& of_b);
+
 }  // namespace medial_vk

@@ -107,8 +107,6 @@ class TrianglesGoal {
     shorten();
   }
 
-  static constexpr bool kHasExcess = true;
-
   float reach() const { return reach_; }
   /// Asked before every comparison, and so the place to stop.
   bool is_reached() const {

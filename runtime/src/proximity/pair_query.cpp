@@ -56,8 +56,8 @@ double PairQuery::upper_bound(double most, BallPair& pair) const {
   return medial_vk::upper_bound(in_a_, in_b_, placement_, most, pair);
 }
 
-Distance PairQuery::distance(const DistanceOptions& options, const Distance& start) const {
-  return distance_of(in_a_, in_b_, placement_, options, start);
+Distance PairQuery::distance(const DistanceOptions& options, const Distance& start, const std::stop_token& stop) const {
+  return distance_of(in_a_, in_b_, placement_, options, start, stop);
 }
 
 }  // namespace medial_vk

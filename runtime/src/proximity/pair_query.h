@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <stop_token>
 
 #include "medial_vk/ball.h"
 #include "medial_vk/proximity.h"
@@ -27,8 +28,9 @@ class PairQuery {
   double lower_bound(double most, BallPair& pair) const;
   /// The same for an upper bound, by balls inside. Precondition: has_insides().
   double upper_bound(double most, BallPair& pair) const;
-  /// As the public call. Precondition: both bodies have meshes; the options are good.
-  Distance distance(const DistanceOptions& options, const Distance& start) const;
+  /// As the public call. Precondition: both bodies have meshes; the options are good. Throws LoopStopped after a
+  /// request to `stop`.
+  Distance distance(const DistanceOptions& options, const Distance& start, const std::stop_token& stop = {}) const;
 
  private:
   const BodyImpl& in_a_;

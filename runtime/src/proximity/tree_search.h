@@ -63,9 +63,8 @@ struct BallsOfNodes {
 /// More than any separation of two balls, and less than that of an unused slot.
 constexpr float kFarther = 1e30f;
 
-/// Depth first, and of the pairs of a division that of the least separation first, or with excess that of the least sum
-/// of the separation and both excesses. `Goal` has the members
-///   bool kHasExcess                     whether balls have an excess
+/// Among balls with an excess. Depth first, and of the pairs of a division that of the least sum of the separation and
+/// both excesses first. `Goal` has the members
 ///   float reach() const                 pairs of balls with a computed separation of this or more are passed over
 ///   void see(separation, BallsOfNodes)  two balls that are closer; may shorten the reach
 ///   uint64 pairs_of(node_a, node_b)     of two nodes: bit 8 k + j, unless what ball k of a and ball j of b hold is
@@ -280,8 +279,7 @@ class TreeSearch {
       Task below = task_below(separation, task, a, k, b, j);
       if (are_same(below, on_way_)) continue;
       if (a.is_lowest != b.is_lowest && repeats(below, first, next)) continue;
-      float order = separation;
-      if constexpr (Goal::kHasExcess) order += a.excess[k] + b.excess[j];
+      const float order = separation + (a.excess[k] + b.excess[j]);
       if (order < least) {
         least = order;
         std::swap(below, next);

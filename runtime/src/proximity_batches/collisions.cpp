@@ -6,8 +6,8 @@
 #include "base/parallel.h"
 #include "proximity/body.h"
 #include "proximity/large_balls.h"
+#include "proximity/overlap_search.h"
 #include "proximity/placement.h"
-#include "proximity_batches/overlap_search.h"
 
 namespace medial_vk {
 namespace {

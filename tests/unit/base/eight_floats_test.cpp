@@ -33,5 +33,17 @@ TEST(EightFloats, GreatestIntegerIsFoundInEveryPlace) {
   }
 }
 
+TEST(EightFloats, LeastIntegerIsFoundInEveryPlace) {
+  constexpr std::int32_t kGreatest = std::numeric_limits<std::int32_t>::max();
+  for (std::uint32_t place = 0; place < 8; ++place) {
+    for (const std::int32_t least : {kGreatest - 9, 0, -7, std::numeric_limits<std::int32_t>::min()}) {
+      EightInts ints{};
+      for (std::uint32_t k = 0; k < 8; ++k) ints[k] = kGreatest - static_cast<std::int32_t>(k);
+      ints[place] = least;
+      EXPECT_EQ(least_of(ints), least) << place;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace medial_vk

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stop_token>
 
 #include "proximity/placement.h"
 
@@ -61,8 +62,9 @@ class Path {
 /// Conservative advancement: while the distance is at least d, no motion of less than d leads to contact.
 class Advance {
  public:
-  Advance(const Body& a, const Body& b, const Motion& motion, const ContactOptions& options)
-      : a_(a), b_(b), path_(motion), options_(options) {
+  Advance(const Body& a, const Body& b, const Motion& motion, const ContactOptions& options,
+          const std::stop_token& stop)
+      : a_(a), b_(b), path_(motion), options_(options), stop_(stop) {
     const BodyImpl& in_b = Internals::of(b);
     const double radius = in_b.surface->tree.nodes().reach() + length(in_b.centre - motion.pivot);
     speed_ = path_.speed(radius);
@@ -89,7 +91,7 @@ class Advance {
 
  private:
   Status look(double t) {
-    Result<Distance> found = distance(a_, b_, path_.at(t), of_distance_, contact_.nearest);
+    Result<Distance> found = distance(a_, b_, path_.at(t), of_distance_, contact_.nearest, stop_);
     if (!found) return found.error();
     contact_.nearest = found.value();
     return {};
@@ -122,6 +124,7 @@ class Advance {
   const Body& b_;
   Path path_;
   const ContactOptions& options_;
+  const std::stop_token& stop_;
   DistanceOptions of_distance_;
   double speed_ = 0, error_ = 0;
   FirstContact contact_;
@@ -137,12 +140,13 @@ Status check(const ContactOptions& options) {
 
 Pose pose_at(const Motion& motion, double t) { return Path(motion).at(t); }
 
-Result<FirstContact> first_contact(const Body& a, const Body& b, const Motion& motion, const ContactOptions& options) {
+Result<FirstContact> first_contact(const Body& a, const Body& b, const Motion& motion, const ContactOptions& options,
+                                   const std::stop_token& stop) {
   if (Status status = check(options); !status) return status.error();
   if (!a.has_mesh() || !b.has_mesh()) {
     return Error{ErrorCode::kUsage, "a first contact needs bodies that were created with their meshes"};
   }
-  return Advance(a, b, motion, options).run();
+  return Advance(a, b, motion, options, stop).run();
 }
 
 }  // namespace medial_vk

@@ -43,6 +43,22 @@ MEDIAL_VK_INLINE Closer closer(const EightFloats& x, const EightFloats& y, const
   return {(square < square_of_reach) & (reach > 0), square_of_reach - square};
 }
 
+/// A node of the lowest level is not replaced, so all pairs of its balls with one of the other node lead to the same
+/// two nodes. Those that lead where the pair of the bit 8 k + j leads, for nodes of which one is of the lowest level:
+MEDIAL_VK_INLINE std::uint64_t pairs_like(std::uint32_t bit, const BodyNode& a) {
+  return a.is_lowest ? std::uint64_t{0x0101010101010101} << bit % 8 : std::uint64_t{0xff} << bit / 8 * 8;
+}
+
+/// One pair stays of those that lead to the same two nodes.
+MEDIAL_VK_INLINE std::uint64_t without_repeats(std::uint64_t pairs, const BodyNode& a) {
+  std::uint64_t rest = 0;
+  for (std::uint32_t i = 0; i < BodyNode::kWidth; ++i) {
+    const std::uint32_t bit = a.is_lowest ? i : i * 8;
+    if ((pairs & pairs_like(bit, a)) != 0) rest |= std::uint64_t{1} << bit;
+  }
+  return rest;
+}
+
 /// Depth first, and of the pairs of a division the one that overlaps most first. Separations are compared by squares,
 /// as separation_error() allows. Everything is inlined into its caller, which chooses the processor. Allocates nothing.
 class OverlapSearch {
@@ -60,6 +76,9 @@ class OverlapSearch {
     }
     return true;
   }
+
+  /// Two such items. Precondition: find() has found some.
+  MEDIAL_VK_INLINE const BallPair& found() const { return found_; }
 
  private:
   static constexpr std::uint32_t kWidth = BodyNode::kWidth;
@@ -123,10 +142,15 @@ class OverlapSearch {
     }
     const std::uint64_t pairs = bytes_of(closer_to_a);
     if (pairs == 0) return false;
-    if (a.is_lowest && b.is_lowest) return true;
+    if (a.is_lowest && b.is_lowest) {
+      const auto bit = static_cast<std::uint32_t>(std::countr_zero(pairs));
+      found_ = {a.below[bit / kWidth], b.below[bit % kWidth]};
+      return true;
+    }
     const std::uint32_t first = static_cast<std::uint32_t>(greatest_of(most)) % (kWidth * kWidth);
     const std::uint64_t rest = pairs & ~(std::uint64_t{1} << first);
-    divisions_[count_++] = {nodes, first, a.is_lowest || b.is_lowest ? without_repeats(rest, first, a) : rest};
+    divisions_[count_++] = {nodes, first,
+                            a.is_lowest || b.is_lowest ? without_repeats(rest & ~pairs_like(first, a), a) : rest};
     return false;
   }
 
@@ -137,22 +161,11 @@ class OverlapSearch {
     return ((reinterpret_cast<EightInts>(found.by) & ~127) | pair) & found.where;
   }
 
-  /// A node of the lowest level is not replaced, so all pairs of its balls with one of the other node lead to the same
-  /// two nodes: one of them stays, and none with that of `first`.
-  MEDIAL_VK_INLINE static std::uint64_t without_repeats(std::uint64_t pairs, std::uint32_t first, const BodyNode& a) {
-    std::uint64_t rest = 0;
-    for (std::uint32_t i = 0; i < kWidth; ++i) {
-      const std::uint32_t start = a.is_lowest ? i : i * kWidth;
-      const std::uint64_t same = (a.is_lowest ? std::uint64_t{0x0101010101010101} : std::uint64_t{0xff}) << start;
-      if (((same >> first) & 1) == 0 && (pairs & same) != 0) rest |= std::uint64_t{1} << start;
-    }
-    return rest;
-  }
-
   const NodeTree& a_;
   const NodeTree& b_;
   const FloatPose& pose_;
   float separation_;
+  BallPair found_;
   std::size_t count_ = 0;
   /// At most one for each level: below the lowest level of both trees there is nothing.
   std::array<Division, node_levels(kMostBodyBalls)> divisions_;
