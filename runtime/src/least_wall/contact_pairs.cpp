@@ -19,6 +19,12 @@ Bounds turn_of(const SpokeCone& a, const SpokeCone& b) {
   return {between - spread, between + spread};
 }
 
+/// A quick test: true only if directions in both cones are less than 2 theta, more than a right angle, apart.
+bool are_too_close(const SpokeCone& a, const SpokeCone& b, double theta) {
+  if (is_any(a) || is_any(b)) return false;
+  return dot(a.axis, b.axis) > 0 && a.angle + b.angle + 2 * kAngleRounding < 2 * theta - 0.5 * std::numbers::pi;
+}
+
 /// False where the planes of both triangles show that they have no point in common.
 bool may_meet(const FacingTriangle& a, const FacingTriangle& b, double rounding) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -80,22 +86,21 @@ void spokes_by_normals(std::span<const FacingTriangle> triangles, double roundin
   for (std::size_t i = 0; i < triangles.size(); ++i) caps.push_back(cap_at(triangles, i, rounding, meeting));
 }
 
-double least_radius_of_pairs(std::span<const PossibleContact> contacts, double h, double theta, double known) {
+double least_radius_of_pairs(std::vector<PossibleContact>& contacts, double h, double theta, double known) {
+  std::erase_if(contacts, [](const PossibleContact& contact) {
+    return turn_of(contact.by_position, contact.by_normals).lower > 0;
+  });
   double least = std::numeric_limits<double>::infinity();
-  const auto is_possible = [](const PossibleContact& contact) {
-    return turn_of(contact.by_position, contact.by_normals).lower <= 0;
-  };
   for (std::size_t j = 1; j < contacts.size(); ++j) {
-    const PossibleContact& b = contacts[j];
-    if (!is_possible(b)) continue;
     for (std::size_t i = 0; i < j; ++i) {
-      const PossibleContact& a = contacts[i];
-      const double d = std::sqrt(0.5 * (a.distance * a.distance + b.distance * b.distance)) * (1 - kBoundShare);
-      if (least_radius_around(d, h, theta) >= least) continue;
+      const PossibleContact &a = contacts[i], &b = contacts[j];
+      if (are_too_close(a.by_position, b.by_position, theta) || are_too_close(a.by_normals, b.by_normals, theta))
+        continue;
       const Bounds by_position = turn_of(a.by_position, b.by_position),
                    by_normals = turn_of(a.by_normals, b.by_normals);
-      if (!(std::min(by_position.upper, by_normals.upper) >= 2 * theta) || !is_possible(a)) continue;
+      if (!(std::min(by_position.upper, by_normals.upper) >= 2 * theta)) continue;
       const double angle = std::max({theta, 0.5 * by_position.lower, 0.5 * by_normals.lower});
+      const double d = std::sqrt(0.5 * (a.distance * a.distance + b.distance * b.distance)) * (1 - kBoundShare);
       least = std::min(least, least_radius_around(d, h, angle));
       if (least <= known) return known;
     }

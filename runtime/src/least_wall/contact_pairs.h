@@ -15,11 +15,12 @@ namespace medial_vk {
 /// Bounds are widened by this share for the rounding of some ten operations.
 constexpr double kBoundShare = 0x1p-44;
 
-/// What is known of the spokes of balls around some centres, within h of a point c, that touch a triangle.
+/// What is known of the spokes of balls around some centres, within h of a point c, that touch inside a triangle or on
+/// an edge.
 struct PossibleContact {
-  SpokeCone by_position;  ///< The directions from the centres to the triangle.
-  SpokeCone by_normals;   ///< Those of the triangles that may meet it.
-  double distance = 0;    ///< Of the triangle from c, at least.
+  SpokeCone by_position;  ///< The directions from the centres to the triangle or edge.
+  SpokeCone by_normals;   ///< That of the triangle, or those of the triangles that may meet at the edge.
+  double distance = 0;    ///< Of the triangle or edge from c, at least.
 };
 
 /// A triangle for spokes_by_normals().
@@ -28,16 +29,16 @@ struct FacingTriangle {
   SpokeCone normal;  ///< Towards the side of contacts' spokes; an axis of zero: any.
 };
 
-/// The least radius of a ball around m, |m - c| <= h, with an object angle of theta or more, that touches triangles at
-/// distances of c whose squares have the mean d^2.
+/// The least radius of a ball around m, |m - c| <= h, with an object angle of theta or more, and contacts
+/// at distances from c whose squares have the mean d^2, or a greater one.
 double least_radius_around(double d, double h, double theta);
 
 /// By triangle: a cap that holds the spokes of all contacts on it, whichever of the other triangles meet it there.
 /// `rounding`: of heights of corners over planes.
 void spokes_by_normals(std::span<const FacingTriangle> triangles, double rounding, std::vector<SpokeCone>& caps);
 
-/// The least radius of a ball with the object angle theta that touches two of the triangles, if that is above `known`,
-/// or else `known`; infinite if no two of them are possible.
-double least_radius_of_pairs(std::span<const PossibleContact> contacts, double h, double theta, double known);
+/// A bound of the radius of balls with the object angle theta and two of the contacts, if it is above `known`, or else
+/// `known`; infinite if no two are possible. Contacts that are not possible are removed.
+double least_radius_of_pairs(std::vector<PossibleContact>& contacts, double h, double theta, double known);
 
 }  // namespace medial_vk

@@ -23,6 +23,9 @@ constexpr std::size_t kMostTriangles = 400;
 // Of these, pairs are examined: their number is the square.
 constexpr std::size_t kMostPaired = 32;
 
+/// Otherwise a cell is too large for directions from its centres to the boundary to be known.
+bool has_directions(double distance, double h) { return h < 0.25 * distance; }
+
 }  // namespace
 
 WallCell WallCell::part(std::size_t index) const {
@@ -78,7 +81,7 @@ std::optional<WallCells::Start> WallCells::bound(WallCell& cell, double best) {
   const double angle = std::max(by_normals.object_angle, by_directions.object_angle);
   cell.least = std::max({cell.least, by_normals.least_radius, least_radius_around(d - rounding_, h, angle)});
   if (cell.least >= best) return std::nullopt;
-  cell.least = std::max(cell.least, radius_by_pairs(h, cell.least));
+  cell.least = std::max(cell.least, radius_by_pairs(cell.centre, d, h, cell.least));
   if (cell.least >= best) return std::nullopt;
   return Start{hit.point, d, h, angle};
 }
@@ -156,34 +159,29 @@ void WallCells::bound_by_heights(Known& known) const {
 }
 
 /// A point x of a triangle within the reach R of c is within sqrt(R^2 - |q - c|^2) of its point q that is nearest to c,
-/// as the angle at q is right or greater. From a centre m, |m - c| <= h, the direction to x differs by up to
-/// asin(h / d).
-void WallCells::find_directions(double distance, double h) {
-  directions_.assign(near_.size(), SpokeCone{});
-  if (!(h < 0.25 * distance)) return;
-  const double reach = (distance + 2 * h + rounding_) * (1 + kBoundShare);
-  const double by_centre = std::asin(h / distance);
-  for (std::size_t i = 0; i < near_.size(); ++i) {
-    const NearestOffset& offset = near_[i].offset;
-    const double size = std::sqrt(offset.squared_distance);
-    const double squared = offset.squared_distance * (1 - kBoundShare);
-    // The foot on a thin triangle may be off by the square root of the product of its rounding and its length.
-    const double beside =
-        std::sqrt(std::max(0.0, reach * reach - squared)) + 2 * std::sqrt(rounding_ * size) + rounding_;
-    directions_[i] = {(1 / size) * offset.offset, std::atan(beside / size) * (1 + kBoundShare) + by_centre};
-  }
+/// as the angle at q is right or greater, and so is one of an edge. From a centre m, |m - c| <= h, the direction to x
+/// differs by up to asin(h / d).
+SpokeCone WallCells::direction_to(const NearestOffset& offset, double distance, double h) const {
+  const double reach = (distance + 2 * h + rounding_) * (1 + kBoundShare), by_centre = std::asin(h / distance);
+  const double size = std::sqrt(offset.squared_distance);
+  const double squared = offset.squared_distance * (1 - kBoundShare);
+  // The foot on a thin triangle may be off by the square root of the product of its rounding and its length.
+  const double beside = std::sqrt(std::max(0.0, reach * reach - squared)) + 2 * std::sqrt(rounding_ * size) + rounding_;
+  return {(1 / size) * offset.offset, std::atan(beside / size) * (1 + kBoundShare) + by_centre};
 }
 
 WallCells::Known WallCells::pairs_by_directions(double distance, double h) {
-  find_directions(distance, h);
   const double theta = field_.options.object_angle;
-  if (!(h < 0.25 * distance)) return {true, theta, 0};
-  const PairsOfContacts pairs = groups_.divide(directions_, nearest_, theta);
+  if (!has_directions(distance, h)) return {true, theta, 0};
+  cones_.clear();
+  cones_.reserve(near_.size());
+  for (const Near& near : near_) cones_.push_back(direction_to(near.offset, distance, h));
+  const PairsOfContacts pairs = groups_.divide(cones_, nearest_, theta);
   return {pairs.are_possible, pairs.object_angle, 0};
 }
 
-/// By the directions of the last call for this cell, and by normals. `known` if no more is known.
-double WallCells::radius_by_pairs(double h, double known) {
+/// Of balls around centres in the cell around c; `known` if no more is known.
+double WallCells::radius_by_pairs(const Point& c, double distance, double h, double known) {
   if (near_.size() > kMostPaired) return known;
   facing_.clear();
   facing_.reserve(near_.size());
@@ -193,10 +191,23 @@ double WallCells::radius_by_pairs(double h, double known) {
   }
   spokes_by_normals(facing_, rounding_, cones_);
   contacts_.clear();
-  contacts_.reserve(near_.size());
+  edges_.clear();
+  const double reach = distance + 2 * h + rounding_;
+  const auto add = [&](const NearestOffset& offset, const SpokeCone& by_normals) {
+    const double size = std::sqrt(offset.squared_distance) - rounding_;
+    const SpokeCone by_position = has_directions(distance, h) ? direction_to(offset, distance, h) : SpokeCone{};
+    contacts_.push_back({by_position, by_normals, std::max(0.0, size)});
+  };
   for (std::size_t i = 0; i < near_.size(); ++i) {
-    const double distance = std::sqrt(near_[i].offset.squared_distance) - rounding_;
-    contacts_.push_back({directions_[i], cones_[i], std::max(0.0, distance)});
+    add(near_[i].offset, facing_[i].normal);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [a, b] = std::minmax(facing_[i].corners[k], facing_[i].corners[(k + 1) % 3]);
+      const NearestOffset offset = nearest_on_segment(a - c, b - a);
+      if (std::sqrt(offset.squared_distance) - rounding_ > reach) continue;
+      if (std::ranges::find(edges_, std::pair(a, b)) != edges_.end()) continue;
+      edges_.emplace_back(a, b);
+      add(offset, cones_[i]);
+    }
   }
   return least_radius_of_pairs(contacts_, h, field_.options.object_angle, known);
 }
