@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <ctime>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -69,18 +70,22 @@ std::vector<NamedMesh> generated_solids() {
 
 void print_row(const NamedMesh& solid, const LeastWallOptions& options, int repeats) {
   const IndexedMesh mesh = or_exit(IndexedMesh::build(or_exit(prepare_mesh(solid.mesh))));
-  std::vector<double> seconds;
+  std::vector<double> seconds, of_processor;
   seconds.reserve(static_cast<std::size_t>(repeats));
+  of_processor.reserve(static_cast<std::size_t>(repeats));
   LeastWall wall;
   for (int i = 0; i < repeats; ++i) {
     Stopwatch watch;
+    const std::clock_t begin = std::clock();
     wall = or_exit(measure_least_wall(mesh, options));
     seconds.push_back(watch.lap());
+    of_processor.push_back(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
   }
   const Bounds& diameter = wall.diameter;
-  fmt::print("| {} | {} | {:.3f} | {:.4g} to {:.4g} | {:.2f} | {} | {:.2f} |\n", solid.name,
+  fmt::print("| {} | {} | {:.3f} | {:.4g} to {:.4g} | {:.2f} | {} | {:.2f} | {:.2f} |\n", solid.name,
              mesh.prepared().mesh.triangles.size(), mesh.longest_side(), diameter.lower, diameter.upper,
-             100 * (diameter.upper / diameter.lower - 1), wall.cells, bench::median(seconds));
+             100 * (diameter.upper / diameter.lower - 1), wall.cells, bench::median(seconds),
+             bench::median(of_processor));
   std::fflush(stdout);
 }
 
@@ -106,7 +111,9 @@ int main(int argc, char** argv) {
   if (files.empty()) solids = generated_solids();
   solids.reserve(solids.size() + files.size());
   for (const std::string& file : files) solids.push_back({file.substr(file.rfind('/') + 1), or_exit(read_mesh(file))});
-  fmt::print("| mesh | triangles | longest side | {} | width, % | cells | s |\n|---|---|---|---|---|---|---|\n",
-             gaps ? "least gap" : "least wall");
+  fmt::print(
+      "| mesh | triangles | longest side | {} | width, % | cells | s | of the processor, s "
+      "|\n|---|---|---|---|---|---|---|---|\n",
+      gaps ? "least gap" : "least wall");
   for (const NamedMesh& solid : solids) print_row(solid, options, repeats);
 }

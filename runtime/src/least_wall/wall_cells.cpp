@@ -182,7 +182,7 @@ WallCells::Known WallCells::pairs_by_directions(double distance, double h) {
 
 /// Of balls around centres in the cell around c; `known` if no more is known.
 double WallCells::radius_by_pairs(const Point& c, double distance, double h, double known) {
-  if (near_.size() > kMostPaired) return known;
+  if (near_.size() > kMostPaired || !has_directions(distance, h)) return known;
   facing_.clear();
   facing_.reserve(near_.size());
   for (const Near& near : near_) {
@@ -195,8 +195,7 @@ double WallCells::radius_by_pairs(const Point& c, double distance, double h, dou
   const double reach = distance + 2 * h + rounding_;
   const auto add = [&](const NearestOffset& offset, const SpokeCone& by_normals) {
     const double size = std::sqrt(offset.squared_distance) - rounding_;
-    const SpokeCone by_position = has_directions(distance, h) ? direction_to(offset, distance, h) : SpokeCone{};
-    contacts_.push_back({by_position, by_normals, std::max(0.0, size)});
+    contacts_.push_back({direction_to(offset, distance, h), by_normals, std::max(0.0, size)});
   };
   for (std::size_t i = 0; i < near_.size(); ++i) {
     add(near_[i].offset, facing_[i].normal);
