@@ -5,16 +5,6 @@
 #include <numbers>
 
 namespace medial_vk {
-namespace {
-
-// Above the rounding of products of unit vectors, of the inverse cosine near 0, where it is the square root of that,
-// and of sums of angles.
-constexpr double kAngleRounding = 0x1p-24;
-
-double angle_between(const Point& a, const Point& b) { return std::acos(std::clamp(dot(a, b), -1.0, 1.0)); }
-
-}  // namespace
-
 /// The axis moves by shorter and shorter steps towards the farthest direction (M. Badoiu, K. L. Clarkson, "Smaller
 /// core-sets for balls", 2003). The cap holds the cones whatever the axis.
 SpokeCone SpokeGroups::cap_of(std::span<const SpokeCone> cones, std::size_t group) const {

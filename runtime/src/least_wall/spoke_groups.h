@@ -1,7 +1,9 @@
 // The directions of the spokes that balls around some centres may have, in two groups (docs/theory.md, "Least wall").
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -9,6 +11,13 @@
 #include "base/point_ops.h"
 
 namespace medial_vk {
+
+/// Above the rounding of products of unit vectors, of the inverse cosine near 0, where it is the square root of that,
+/// and of sums of angles.
+constexpr double kAngleRounding = 0x1p-24;
+
+/// Between unit vectors, up to that rounding.
+inline double angle_between(const Point& a, const Point& b) { return std::acos(std::clamp(dot(a, b), -1.0, 1.0)); }
 
 /// Directions within an angle of a unit vector. An axis of zero: any directions.
 struct SpokeCone {

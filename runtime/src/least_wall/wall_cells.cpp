@@ -10,9 +10,6 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-// Bounds are widened by this share for the rounding of some ten operations.
-constexpr double kBoundShare = 0x1p-44;
-
 // Of products of corners with a unit vector, relative to their greatest coordinate.
 constexpr double kHeightRounding = 0x1p-48;
 
@@ -23,16 +20,11 @@ constexpr double kAngleSlack = 0x1p-10;
 // With more triangles within reach a cell is divided at once: they would take more time than its parts.
 constexpr std::size_t kMostTriangles = 400;
 
-/// The least radius of a ball around m, |m - c| <= h, that touches at x and y with an object angle of theta or more,
-/// where c has the distance d from the boundary: the unit vectors to the contacts have a sum of length 2 cos theta or
-/// less, so one of them, w, has w.(c - m) >= -h cos theta, and d^2 <= |c - x|^2 <= r^2 + 2 r h cos theta + h^2.
-double least_radius_around(double d, double h, double theta) {
-  if (!(d > h)) return 0;
-  const double sine = std::sin(theta), cosine = std::cos(theta);
-  const double squared = d * d * (1 - kBoundShare) - h * h * sine * sine;
-  const double radius = std::sqrt(std::max(0.0, squared)) - h * cosine;
-  return std::max(0.0, radius - kBoundShare * d);
-}
+// Of these, pairs are examined: their number is the square.
+constexpr std::size_t kMostPaired = 32;
+
+/// Otherwise a cell is too large for directions from its centres to the boundary to be known.
+bool has_directions(double distance, double h) { return h < 0.25 * distance; }
 
 }  // namespace
 
@@ -88,6 +80,8 @@ std::optional<WallCells::Start> WallCells::bound(WallCell& cell, double best) {
   cell.vertex = common_vertex();
   const double angle = std::max(by_normals.object_angle, by_directions.object_angle);
   cell.least = std::max({cell.least, by_normals.least_radius, least_radius_around(d - rounding_, h, angle)});
+  if (cell.least >= best) return std::nullopt;
+  cell.least = std::max(cell.least, radius_by_pairs(cell.centre, d, h, cell.least));
   if (cell.least >= best) return std::nullopt;
   return Start{hit.point, d, h, angle};
 }
@@ -165,24 +159,56 @@ void WallCells::bound_by_heights(Known& known) const {
 }
 
 /// A point x of a triangle within the reach R of c is within sqrt(R^2 - |q - c|^2) of its point q that is nearest to c,
-/// as the angle at q is right or greater. From a centre m, |m - c| <= h, the direction to x differs by up to
-/// asin(h / d).
+/// as the angle at q is right or greater, and so is one of an edge. From a centre m, |m - c| <= h, the direction to x
+/// differs by up to asin(h / d).
+SpokeCone WallCells::direction_to(const NearestOffset& offset, double distance, double h) const {
+  const double reach = (distance + 2 * h + rounding_) * (1 + kBoundShare), by_centre = std::asin(h / distance);
+  const double size = std::sqrt(offset.squared_distance);
+  const double squared = offset.squared_distance * (1 - kBoundShare);
+  // The foot on a thin triangle may be off by the square root of the product of its rounding and its length.
+  const double beside = std::sqrt(std::max(0.0, reach * reach - squared)) + 2 * std::sqrt(rounding_ * size) + rounding_;
+  return {(1 / size) * offset.offset, std::atan(beside / size) * (1 + kBoundShare) + by_centre};
+}
+
 WallCells::Known WallCells::pairs_by_directions(double distance, double h) {
   const double theta = field_.options.object_angle;
-  if (!(h < 0.25 * distance)) return {true, theta, 0};
-  const double reach = (distance + 2 * h + rounding_) * (1 + kBoundShare);
-  const double by_centre = std::asin(h / distance);
+  if (!has_directions(distance, h)) return {true, theta, 0};
   cones_.clear();
-  for (const Near& near : near_) {
-    const double size = std::sqrt(near.offset.squared_distance);
-    const double squared = near.offset.squared_distance * (1 - kBoundShare);
-    // The foot on a thin triangle may be off by the square root of the product of its rounding and its length.
-    const double beside =
-        std::sqrt(std::max(0.0, reach * reach - squared)) + 2 * std::sqrt(rounding_ * size) + rounding_;
-    cones_.push_back({(1 / size) * near.offset.offset, std::atan(beside / size) * (1 + kBoundShare) + by_centre});
-  }
+  cones_.reserve(near_.size());
+  for (const Near& near : near_) cones_.push_back(direction_to(near.offset, distance, h));
   const PairsOfContacts pairs = groups_.divide(cones_, nearest_, theta);
   return {pairs.are_possible, pairs.object_angle, 0};
+}
+
+/// Of balls around centres in the cell around c; `known` if no more is known.
+double WallCells::radius_by_pairs(const Point& c, double distance, double h, double known) {
+  if (near_.size() > kMostPaired || !has_directions(distance, h)) return known;
+  facing_.clear();
+  facing_.reserve(near_.size());
+  for (const Near& near : near_) {
+    const SpokeCone& outward = field_.normals[near.position];
+    facing_.push_back({field_.solid.bvh().corners()[near.position], {toward_ * outward.axis, outward.angle}});
+  }
+  spokes_by_normals(facing_, rounding_, cones_);
+  contacts_.clear();
+  edges_.clear();
+  const double reach = distance + 2 * h + rounding_;
+  const auto add = [&](const NearestOffset& offset, const SpokeCone& by_normals) {
+    const double size = std::sqrt(offset.squared_distance) - rounding_;
+    contacts_.push_back({direction_to(offset, distance, h), by_normals, std::max(0.0, size)});
+  };
+  for (std::size_t i = 0; i < near_.size(); ++i) {
+    add(near_[i].offset, facing_[i].normal);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [a, b] = std::minmax(facing_[i].corners[k], facing_[i].corners[(k + 1) % 3]);
+      const NearestOffset offset = nearest_on_segment(a - c, b - a);
+      if (std::sqrt(offset.squared_distance) - rounding_ > reach) continue;
+      if (std::ranges::find(edges_, std::pair(a, b)) != edges_.end()) continue;
+      edges_.emplace_back(a, b);
+      add(offset, cones_[i]);
+    }
+  }
+  return least_radius_of_pairs(contacts_, h, field_.options.object_angle, known);
 }
 
 std::optional<Point> WallCells::common_vertex() const {

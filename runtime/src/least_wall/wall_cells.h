@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "bvh/nearby_triangles.h"
 #include "bvh/triangle_distance.h"
 #include "bvh/wide_tree.h"
+#include "least_wall/contact_pairs.h"
 #include "least_wall/spoke_groups.h"
 #include "medial_vk/least_wall.h"
 #include "solid/solid.h"
@@ -70,7 +72,9 @@ class WallCells {
   std::optional<Start> bound(WallCell& cell, double best);
   void gather(const Point& centre, double radius, std::uint32_t nearest_triangle, std::size_t most);
   Known pairs_by_normals();
+  SpokeCone direction_to(const NearestOffset& offset, double distance, double h) const;
   Known pairs_by_directions(double distance, double h);
+  double radius_by_pairs(const Point& c, double distance, double h, double known);
   void bound_by_heights(Known& known) const;
   std::optional<Point> common_vertex() const;
   double cone_radius(const Point& vertex);
@@ -91,7 +95,10 @@ class WallCells {
   std::vector<std::uint32_t> nearby_;
   std::vector<Near> near_;
   std::vector<SpokeCone> cones_;  // by triangle within reach
-  std::size_t nearest_ = 0;       // the nearest of them
+  std::vector<FacingTriangle> facing_;
+  std::vector<std::pair<Point, Point>> edges_;  // within reach
+  std::vector<PossibleContact> contacts_;
+  std::size_t nearest_ = 0;  // the nearest of them
 };
 
 }  // namespace medial_vk

@@ -146,6 +146,17 @@ TEST(LeastWall, LeavesOutBluntEdges) {
   EXPECT_LE(least_wall_of(mesh, options).diameter.lower, 1e-6);
 }
 
+// The balls that touch all three sides of that prism have contacts at 120 degrees, less than 2 theta, and those that
+// touch both ends do not fit between the sides: there is no wall.
+TEST(LeastWall, LeavesOutSeamsOfThreeSheets) {
+  const IndexedMesh mesh = whole_of(turned(make_wedge(std::numbers::pi / 3)));
+  LeastWallOptions options;
+  options.limit = 0.9;
+  const LeastWall found = least_wall_of(mesh, options);
+  EXPECT_GE(found.diameter.lower, 0.9 / 1.01);
+  EXPECT_FALSE(found.thinnest);
+}
+
 TEST(LeastWall, OfAGap) {
   Mesh both = make_box({0.3, 0.3, 0.2});
   append(both, moved(make_box({0.3, 0.3, 0.2}), {0.33, 0, 0}));
