@@ -139,11 +139,18 @@ bool SpokeDifferences::find_bases(std::uint32_t ball, Bases& bases) const {
   const Point aside = bases.chosen.second, along = cross(aside, normal);
   for (const Point& direction : {-1 * along, aside, -1 * aside}) {
     for (double step = step_; step >= least_step_; step *= kShorter) {
-      if (!find_basis_along(direction, step, ball, normal, bases.others[bases.count])) continue;
+      if (!find_basis_along(direction, step, ball, normal, bases.others[bases.count].basis)) continue;
       ++bases.count;
       break;
     }
   }
+  Other& shorter = bases.others[bases.count];
+  if (!find_basis_along(along, least_step_, ball, normal, shorter.basis)) return true;
+  const double share = shorter.basis.length / bases.chosen.length;
+  if (share > kShorter) return true;  // steps of nearly equal lengths have nearly equal errors
+  // Of an error that grows with the step; of one that grows with its square, it is more than the error.
+  shorter.factor = 1 / (1 - share);
+  ++bases.count;
   return true;
 }
 
@@ -179,11 +186,11 @@ double SpokeDifferences::error_of(const Bases& bases, std::size_t side, const Sp
   const Eigen::Matrix2d chosen = boundary_shape(bases.chosen);
   double greatest = TipCurvature::kUnknown;
   for (std::size_t k = 0; k < bases.count; ++k) {
-    const Eigen::Matrix2d difference = boundary_shape(bases.others[k]) - chosen;
+    const Eigen::Matrix2d difference = boundary_shape(bases.others[k].basis) - chosen;
     const double squares = difference.squaredNorm(), product = 2 * difference.determinant();
     const double norm = std::sqrt((squares + std::sqrt(std::max(0.0, squares * squares - product * product))) / 2);
     if (std::isnan(norm)) is_focal = true;  // the spoke lies in the plane of this basis
-    greatest = std::fmax(greatest, norm);
+    greatest = std::fmax(greatest, bases.others[k].factor * norm);
   }
   return is_focal ? TipCurvature::kUnknown : greatest;
 }

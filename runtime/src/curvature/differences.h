@@ -29,10 +29,16 @@ class SpokeDifferences {
     double length = 0;  ///< Of the step.
     SpokePair at_first, at_second;
   };
-  /// The basis of a ball, and those with the first step along the other three of its directions, where there are balls.
+  /// Another measurement of a ball. Its difference from the chosen one, times `factor`, estimates the error of that.
+  struct Other {
+    Basis basis;
+    double factor = 1;
+  };
+  /// The basis of a ball, and where there are balls those with the first step in the other three of its directions, and
+  /// in the same direction with the least step.
   struct Bases {
     Basis chosen;
-    std::array<Basis, 3> others;
+    std::array<Other, 4> others;
     std::size_t count = 0;  ///< Of the others.
   };
 
