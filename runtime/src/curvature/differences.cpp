@@ -189,7 +189,7 @@ double SpokeDifferences::error_of(const Bases& bases, std::size_t side, const Sp
     const Eigen::Matrix2d difference = boundary_shape(bases.others[k].basis) - chosen;
     const double squares = difference.squaredNorm(), product = 2 * difference.determinant();
     const double norm = std::sqrt((squares + std::sqrt(std::max(0.0, squares * squares - product * product))) / 2);
-    if (std::isnan(norm)) is_focal = true;  // the spoke lies in the plane of this basis
+    if (!std::isfinite(norm)) is_focal = true;  // the spoke lies in the plane of this basis
     greatest = std::fmax(greatest, bases.others[k].factor * norm);
   }
   return is_focal ? TipCurvature::kUnknown : greatest;
