@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -12,7 +13,7 @@
 namespace medial_vk::bench {
 namespace {
 
-/// The voxels' side: 2^-n of the box, or its longest side over the resolution; here the mean distance of balls.
+/// The side of the voxels, the distance of neighbouring balls.
 double spacing_of(const SmoothBoundary& solid, const Settings& settings) {
   double longest = 0;
   for (std::size_t k = 0; k < 3; ++k) {
