@@ -78,7 +78,7 @@ struct TipCurvature {
   /// (bias). It is no bound: docs/accuracy.md has the shares of points whose error is below it. kCurve: w / r^2, where
   /// w is half the width of the strip of centres, or more, at most a spacing; it does not cover strips with flat faces.
   /// kPoint: w / r^2, where w is the distance of the farthest centre that counts as one with that of the ball.
-  /// kDifferences: not known.
+  /// kDifferences: the greatest difference from other steps; not known without any, or if spokes cross in one of them.
   double error = kUnknown;
   /// The standard deviation of the curvatures by the residuals of the fit alone; of kFits.
   double spread = kUnknown;

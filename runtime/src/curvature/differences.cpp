@@ -1,5 +1,6 @@
 #include "curvature/differences.h"
 
+#include <Eigen/LU>
 #include <numbers>
 
 namespace medial_vk {
@@ -104,64 +105,119 @@ bool SpokeDifferences::find_step(std::uint32_t ball, const Point& direction, dou
 bool SpokeDifferences::find_basis(std::uint32_t ball, Basis& basis) const {
   const Point normal = normal_of(ball);
   if (!(dot(normal, normal) > 0)) return false;
-  double step = step_;
-  while (step >= least_step_) {
-    if (find_basis_with(step, ball, normal, basis)) return true;
-    step *= kShorter;
+  const Point direction = perpendicular_to(normal);
+  for (double step = step_; step >= least_step_; step *= kShorter) {
+    for (const double sign : {1.0, -1.0}) {
+      if (find_basis_along(sign * direction, step, ball, normal, basis)) return true;
+    }
   }
   return false;
 }
 
-bool SpokeDifferences::find_basis_with(double step, std::uint32_t ball, const Point& normal, Basis& basis) const {
-  const Point direction = perpendicular_to(normal);
-  for (const double sign : {1.0, -1.0}) {
-    Neighbour next{};
-    if (!find_step(ball, sign * direction, step, next)) continue;
-    basis.length = next.length;
-    basis.first = 1 / next.length * (centres_[next.ball] - centres_[ball]);
-    basis.second = unit(cross(normal, basis.first));
-    basis.normal = cross(basis.first, basis.second);
-    basis.at_first = aligned(next.ball, normal);
-    const Point place = centres_[ball] + next.length * basis.second;
-    bool found = false;
-    for (const double least_cosine : {kSimilarDot, -1.0}) {
-      basis.at_second = average(place, kAverageShare * step_, normal, least_cosine, found);
-      if (found) return true;
-    }
+bool SpokeDifferences::find_basis_along(const Point& direction, double step, std::uint32_t ball, const Point& normal,
+                                        Basis& basis) const {
+  Neighbour next{};
+  if (!find_step(ball, direction, step, next)) return false;
+  basis.length = next.length;
+  basis.first = 1 / next.length * (centres_[next.ball] - centres_[ball]);
+  basis.second = unit(cross(normal, basis.first));
+  basis.normal = cross(basis.first, basis.second);
+  basis.at_first = aligned(next.ball, normal);
+  const Point place = centres_[ball] + next.length * basis.second;
+  bool found = false;
+  for (const double least_cosine : {kSimilarDot, -1.0}) {
+    basis.at_second = average(place, kAverageShare * step_, normal, least_cosine, found);
+    if (found) return true;
   }
   return false;
+}
+
+bool SpokeDifferences::find_bases(std::uint32_t ball, Bases& bases) const {
+  if (!find_basis(ball, bases.chosen)) return false;
+  const Point normal = normal_of(ball);
+  // The other directions of the chosen basis, in the plane across the normal.
+  const Point aside = bases.chosen.second, along = cross(aside, normal);
+  for (const Point& direction : {-1 * along, aside, -1 * aside}) {
+    for (double step = step_; step >= least_step_; step *= kShorter) {
+      if (!find_basis_along(direction, step, ball, normal, bases.others[bases.count].basis)) continue;
+      ++bases.count;
+      break;
+    }
+  }
+  Other& shorter = bases.others[bases.count];
+  if (!find_basis_along(along, least_step_, ball, normal, shorter.basis)) return true;
+  const double share = shorter.basis.length / bases.chosen.length;
+  if (share > kShorter) return true;  // steps of nearly equal lengths have nearly equal errors
+  // Of an error that grows with the step; of one that grows with its square, it is more than the error.
+  shorter.factor = 1 / (1 - share);
+  ++bases.count;
+  return true;
+}
+
+Eigen::Matrix2d SpokeDifferences::radial_shape(const Basis& basis, const Point& spoke, const Point& at_first,
+                                               const Point& at_second) {
+  // Equations 5.9, 5.10, 5.12, 5.13; then 5.4 and 5.5, along the spoke onto the tangent plane.
+  const double across = dot(spoke, basis.normal);
+  const auto column = [&](const Point& there) {
+    const Point change = 1 / basis.length * (there - spoke);
+    const Point turned = -1 * (change - dot(change, basis.normal) / across * spoke);
+    return Eigen::Vector2d(dot(turned, basis.first), dot(turned, basis.second));
+  };
+  Eigen::Matrix2d out;
+  out << column(at_first), column(at_second);
+  return out;
+}
+
+double SpokeDifferences::error_of(const Bases& bases, std::size_t side, const SpokePair& own, double radius) const {
+  const Point& spoke = side == 0 ? own.a : own.b;
+  const Point x = perpendicular_to(spoke), y = cross(spoke, x);
+  bool is_focal = false;
+  const auto boundary_shape = [&](const Basis& basis) {
+    const SpokePair &first = basis.at_first, &second = basis.at_second;
+    const Eigen::Matrix2d radial =
+        side == 0 ? radial_shape(basis, spoke, first.a, second.a) : radial_shape(basis, spoke, first.b, second.b);
+    const Eigen::Matrix2d left = Eigen::Matrix2d::Identity() - radius * radial;
+    // Both eigenvalues of `left` are positive, or complex: the condition of Definition 5.1.
+    if (!(left.determinant() > 0) || !(left.trace() > 0)) is_focal = true;
+    Eigen::Matrix2d axes;  // from the tangent plane of the sheet to that of the boundary
+    axes << dot(x, basis.first), dot(x, basis.second), dot(y, basis.first), dot(y, basis.second);
+    return Eigen::Matrix2d(-axes * radial * left.inverse() * axes.inverse());
+  };
+  const Eigen::Matrix2d chosen = boundary_shape(bases.chosen);
+  double greatest = TipCurvature::kUnknown;
+  for (std::size_t k = 0; k < bases.count; ++k) {
+    const Eigen::Matrix2d difference = boundary_shape(bases.others[k].basis) - chosen;
+    const double squares = difference.squaredNorm(), product = 2 * difference.determinant();
+    const double norm = std::sqrt((squares + std::sqrt(std::max(0.0, squares * squares - product * product))) / 2);
+    if (!std::isfinite(norm)) is_focal = true;  // the spoke lies in the plane of this basis
+    greatest = std::fmax(greatest, bases.others[k].factor * norm);
+  }
+  return is_focal ? TipCurvature::kUnknown : greatest;
 }
 
 BallCurvature SpokeDifferences::measure(std::uint32_t ball) const {
   BallCurvature out;
   const SpokePair& own = spokes_[ball];
   out.object_angle = 0.5 * std::atan2(length(cross(own.a, own.b)), dot(own.a, own.b));
-  Basis basis;
-  const bool has_basis = find_basis(ball, basis);
+  Bases bases;
+  const bool has_basis = find_bases(ball, bases);
+  const Basis& basis = bases.chosen;
   const double r = balls_[ball].radius;
   for (std::size_t side = 0; side < 2; ++side) {
     TipCurvature& tip = out.tips[side];
     const Point &spoke = side == 0 ? own.a : own.b, &at_first = side == 0 ? basis.at_first.a : basis.at_first.b;
     const Point& at_second = side == 0 ? basis.at_second.a : basis.at_second.b;
     tip.normal = spoke;
-    const double across = dot(spoke, basis.normal);
-    if (!has_basis || across == 0) continue;  // kFew
-    // Equations 5.9, 5.10, 5.12, 5.13; then 5.4 and 5.5, along the spoke onto the tangent plane.
-    const auto column = [&](const Point& there) {
-      const Point change = 1 / basis.length * (there - spoke);
-      return -1 * (change - dot(change, basis.normal) / across * spoke);
-    };
-    const Point along = column(at_first), aside = column(at_second);
+    if (!has_basis || dot(spoke, basis.normal) == 0) continue;  // kFew
+    const Eigen::Matrix2d shape = radial_shape(basis, spoke, at_first, at_second);
     std::array<RadialAxis, 2> axes;
     tip.state = CurvatureState::kUncertain;
-    if (!axes_of(dot(along, basis.first), dot(aside, basis.first), dot(along, basis.second), dot(aside, basis.second),
-                 basis.first, basis.second, axes)) {
-      continue;
-    }
+    if (!axes_of(shape(0, 0), shape(0, 1), shape(1, 0), shape(1, 1), basis.first, basis.second, axes)) continue;
     tip.state = CurvatureState::kFocal;
     if (axes[1].kappa * r >= 1) continue;  // equation 5.6
     tip.state = CurvatureState::kKnown;
     tip.window = basis.length;
+    tip.error = error_of(bases, side, own, r);
     for (std::size_t i = 0; i < 2; ++i) {
       tip.kappa[i] = -axes[i].kappa / (1 - r * axes[i].kappa);  // equation 5.7
       tip.directions[i] = unit(axes[i].direction - dot(axes[i].direction, spoke) * spoke);
