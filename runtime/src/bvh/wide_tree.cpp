@@ -37,7 +37,7 @@ struct WideTree::Ranges {
   std::vector<std::uint32_t> first, count;
 };
 
-WideTree::WideTree(const Bvh& bvh) {
+WideTree::WideTree(const Bvh& bvh, Bounds bounds) : has_disks_(bounds == Bounds::kBoxesAndDisks) {
   add_node(bvh, Ranges(bvh), 0);
   refit(bvh);
 }
@@ -99,7 +99,7 @@ void WideTree::refit(const Bvh& bvh) {
   reach_ = scale_ * size;
   for (Node& node : nodes_) {
     for (std::size_t k = 0; k < kWidth; ++k) fit_box(bvh, node, k);
-    for (std::size_t k = 0; k < node.count; ++k) fit_disk(bvh, node, k);
+    for (std::size_t k = 0; has_disks_ && k < node.count; ++k) fit_disk(bvh, node, k);
   }
   for (Block& block : blocks_) {
     for (std::size_t k = 0; k < kWidth; ++k) {

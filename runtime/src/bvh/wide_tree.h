@@ -18,8 +18,12 @@ namespace medial_vk {
 /// another one. Belongs to one Bvh, which is passed to each call. Queries may come from several threads at once.
 class WideTree {
  public:
+  /// Of children, to exclude them. A surface that is nearly flat is in a thin disk, whatever its direction: beside
+  /// boxes, disks leave half of the nodes to walk through, but a refit takes four times as long.
+  enum class Bounds : std::uint8_t { kBoxes, kBoxesAndDisks };
+
   /// Of a tree with a node. Throws std::bad_alloc.
-  explicit WideTree(const Bvh& bvh);
+  explicit WideTree(const Bvh& bvh, Bounds bounds = Bounds::kBoxesAndDisks);
 
   /// Follows Bvh::refit(). Allocates nothing.
   void refit(const Bvh& bvh);
@@ -43,9 +47,8 @@ class WideTree {
 
   struct alignas(32) Node {
     std::array<Eight, 3> lower, upper;  // rounded outwards
-    /// The triangles of a child are between two planes across an axis through the middle of its box, at the heights
-    /// `low` and `high` over the middle, and within a radius of the axis. A surface that is nearly flat is in a thin
-    /// disk, whatever its direction.
+    /// Disks: the triangles of a child are between two planes across an axis through the middle of its box, at the
+    /// heights `low` and `high` over the middle, and within a radius of the axis.
     std::array<Eight, 3> axis = {};
     Eight low = {}, high = {}, radius = {};
     std::array<std::uint32_t, kWidth> below = {};                  // index of a node, or kBlock and that of a block
@@ -73,6 +76,7 @@ class WideTree {
   /// Relative to the centre, in units in which the box has a size of about one.
   Point scaled(const Point& p) const;
 
+  bool has_disks_;
   std::vector<Node> nodes_;
   std::vector<Block> blocks_;
   Point centre_ = {0, 0, 0};

@@ -69,7 +69,8 @@ class WideTree::Walk {
 
   /// Squared distances of the children, and a bit for each that is not known to be beyond the limit.
   MEDIAL_VK_INLINE std::uint32_t near_children(const Node& node, std::array<float, kWidth>& distances) const {
-    const EightFloats squared = greater(squared_to_boxes(node), squared_to_disks(node));
+    EightFloats squared = squared_to_boxes(node);
+    if (tree_.has_disks_) squared = greater(squared, squared_to_disks(node));
     distances = stored(squared);
     return bits_of(squared <= squared_limit_) & ((1u << node.count) - 1);
   }

@@ -63,7 +63,9 @@ void expect_same(const Bvh& bvh, const WideTree& wide, const std::vector<Point>&
 void expect_same_trees(const Mesh& mesh, const std::string& name) {
   for (const std::uint32_t leaf_size : {1u, 4u, 30u}) {
     const Bvh bvh = Bvh::build(test::view_of(mesh), {leaf_size, 1}).value();
-    expect_same(bvh, WideTree(bvh), points_around(mesh), name + ", leaves of " + std::to_string(leaf_size));
+    const std::string text = name + ", leaves of " + std::to_string(leaf_size);
+    expect_same(bvh, WideTree(bvh), points_around(mesh), text);
+    expect_same(bvh, WideTree(bvh, WideTree::Bounds::kBoxes), points_around(mesh), text + ", boxes");
   }
 }
 

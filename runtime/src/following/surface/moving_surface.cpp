@@ -59,7 +59,7 @@ MovingSurface::MovingSurface(const IndexedMesh& rest, Bvh bvh, Sides sides)
       vertices_(rest.view().vertices.begin(), rest.view().vertices.end()),
       last_vertices_(vertices_),
       bvh_(std::move(bvh)),
-      wide_(bvh_) {}
+      wide_(bvh_, WideTree::Bounds::kBoxes) {}
 
 Result<MovingSurface> MovingSurface::build(const IndexedMesh& rest, Sides sides) {
   constexpr std::uint32_t kLeafSize = 4;
