@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "curvature_errors.h"
+#include "exposed_errors.h"
 #include "finer_mesh.h"
 #include "jet_curvature.h"
 #include "mesh_curvature.h"
@@ -65,6 +66,7 @@ void measure_solid(const std::string& name, const Settings& settings, Context& c
   const SmoothBoundary solid = solid_of(settings, name, settings.triangles);
   const double greatest = greatest_curvature(solid);
   const std::vector<MedialSphere> spheres = extract(solid, settings, context);
+  if (settings.exposed) return print_exposed(solid, spheres, settings);
   if (settings.vertices) {
     const auto measured = [&](CurvatureAssignment assignment) {
       return vertices_of(solid, spheres, CurvatureMethod::kFits, assignment, settings);
@@ -91,6 +93,7 @@ void print_tables(const Settings& settings, Context& context) {
     for (const std::string& name : settings.solids) print_finer_mesh(name, settings, context);
     return;
   }
+  if (settings.exposed) print_head_of_exposed();
   fmt::print(
       "| solid | method | tips | unknown | mean, % | 95th percentile | greatest | direction, degrees | normal, "
       "degrees | below the estimate (its median, %) |\n|---|---|---|---|---|---|---|---|---|---|\n");
@@ -110,6 +113,9 @@ int main(int argc, char** argv) {
   app.add_option("--jitter", settings.jitter, "vertices are moved by up to this share of their shortest edge");
   app.add_flag("--vertices", settings.vertices, "the assignments to vertices instead");
   app.add_flag("--source", settings.source, "Table 5-1 and Figure 5-6 of the source instead");
+  app.add_flag("--exposed", settings.exposed, "spokes of exposed regions instead");
+  app.add_option("--thinning", settings.thinning, "with --exposed: one ball of so many is left")
+      ->check(CLI::PositiveNumber);
   app.add_flag("--finer", settings.finer, "changes with four times as many triangles instead");
   app.add_option("--threads", settings.threads, "of the host, 0: all");
   CLI11_PARSE(app, argc, argv);

@@ -134,6 +134,45 @@ SmoothBoundary plate(std::uint32_t triangles) {
   return out;
 }
 
+constexpr double kArc = 4, kArcFrom = 2, kTall = 5, kOffEdges = 0.3;
+
+/// Of a prism over a triangle of three arcs: how far a point is outside of each of its four faces.
+std::array<double, 4> heights_over_prism(const Point& p) {
+  std::array<double, 4> out;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double angle = std::numbers::pi * (0.5 + 2 * static_cast<double>(k) / 3);
+    out[k] = std::hypot(p[0] - kArcFrom * std::cos(angle), p[1] - kArcFrom * std::sin(angle)) - kArc;
+  }
+  out[3] = std::fabs(p[2]) - kTall / 2;
+  return out;
+}
+
+/// Three sheets meet along its axis, and others along seams that lead to its ends.
+SmoothBoundary prism(const std::string& name, std::uint32_t around, std::uint32_t along) {
+  SmoothBoundary out = {name, {}, {}, {}};
+  out.height = [](const Point& p) { return std::ranges::max(heights_over_prism(p)); };
+  out.is_known = [](const Point& p) {
+    std::array<double, 4> heights = heights_over_prism(p);
+    std::ranges::sort(heights);
+    return heights[2] < -kOffEdges;
+  };
+  add_grid(out.mesh, along, around, false, [&](std::uint32_t i, std::uint32_t j) {
+    const double angle = std::numbers::pi * (0.5 + 2.0 * j / around);
+    double inside = 0, outside = kArc;
+    while (outside - inside > 1e-13) {
+      const double middle = (inside + outside) / 2;
+      (out.height({middle * std::cos(angle), middle * std::sin(angle), 0}) < 0 ? inside : outside) = middle;
+    }
+    return Point{inside * std::cos(angle), inside * std::sin(angle), kTall * (i / (along - 1.0) - 0.5)};
+  });
+  const std::uint32_t top = (along - 1) * around;
+  for (std::uint32_t j = 1; j + 1 < around; ++j) {
+    out.mesh.triangles.push_back({0, j + 1, j});
+    out.mesh.triangles.push_back({top, top + j, top + j + 1});
+  }
+  return out;
+}
+
 Point gradient_of(const std::function<double(const Point&)>& height, const Point& p, double step) {
   Point out;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -211,6 +250,7 @@ SmoothBoundary make_boundary(const std::string& name, std::uint32_t triangles) {
   if (name == "pipe") return pipe(name, sized(160), sized(24), false);
   if (name == "lantern") return pipe(name, sized(120), sized(32) + 1, true);
   if (name == "plate") return plate(triangles);
+  if (name == "prism") return prism(name, sized(48) * 3, sized(52));
   if (name == "capsule") return capsule(name, triangles);
   if (name == "disc") return disc(name, triangles);
   return {};

@@ -33,7 +33,8 @@ struct SmoothBoundary {
 
 /// triaxial, oblate, pipe, plate, flat torus, tight torus, with about `triangles` triangles; slivers: the flat torus
 /// with triangles much longer than wide, jittered; lantern: a Schwarz lantern, a pipe whose rings of vertices
-/// alternate. capsule, disc: the balls of one radius around a segment, and around a disc.
+/// alternate. prism: over a triangle of three arcs. capsule, disc: the balls of one radius around a segment, and around
+/// a disc.
 SmoothBoundary make_boundary(const std::string& name, std::uint32_t triangles);
 
 }  // namespace medial_vk::bench

@@ -15,7 +15,8 @@ struct Settings {
   std::uint32_t triangles = 16000, resolution = 160;
   double object_angle = 0.3, jitter = 0;
   unsigned threads = 0;
-  bool vertices = false, source = false, finer = false;
+  bool vertices = false, source = false, finer = false, exposed = false;
+  std::size_t thinning = 1;
 };
 
 /// The solid of the settings with this name and number of triangles, with vertices moved as they say.

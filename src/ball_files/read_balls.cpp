@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "ball_files/ball_arrays.h"
 #include "base/quoted.h"
 #include "body_files/body_file.h"
 #include "common/file_extension.h"
@@ -107,10 +108,20 @@ Result<BallsWithSpokes> balls_of_medial_ply(const std::string& path) {
   return out;
 }
 
-Result<BallsWithSpokes> balls_of_body(const std::string& path, BodyBalls which) {
-  Result<BodyFile> file = read_body_file(path);
+Result<BallsWithSpokes> balls_of_npz(const std::string& path, BodyBalls which) {
+  const Result<std::string> bytes = read_table(path);
+  if (!bytes) return bytes.error();
+  // The names of an archive's members are in it as they are.
+  if (bytes.value().find("inside_centre.npy") == std::string::npos) return balls_of_arrays(bytes.value(), path);
+  Result<BodyFile> file = decode_body_file(bytes.value(), path);
   if (!file) return file.error();
   return BallsWithSpokes{std::move(which == BodyBalls::kInside ? file.value().inside : file.value().cover), {}};
+}
+
+Result<BallsWithSpokes> balls_of_json_file(const std::string& path) {
+  const Result<std::string> text = read_table(path);
+  if (!text) return text.error();
+  return balls_of_json(text.value(), path);
 }
 
 Result<BallsWithSpokes> balls_of_table(const std::string& path) {
@@ -155,9 +166,14 @@ Result<std::vector<Ball>> parse_balls(std::string_view text, const std::string& 
 
 Result<BallsWithSpokes> read_balls_with_spokes(const std::string& path, BodyBalls of_body) {
   const std::string extension = file_extension(path);
-  Result<BallsWithSpokes> read = extension == ".ply"   ? balls_of_medial_ply(path)
-                                 : extension == ".npz" ? balls_of_body(path, of_body)
-                                                       : balls_of_table(path);
+  if (extension == ".glb") {
+    return file_error(path,
+                      "glTF has balls as nodes or triangles, rounded to floats; give the .ply, .npz, .json or .csv");
+  }
+  Result<BallsWithSpokes> read = extension == ".ply"    ? balls_of_medial_ply(path)
+                                 : extension == ".npz"  ? balls_of_npz(path, of_body)
+                                 : extension == ".json" ? balls_of_json_file(path)
+                                                        : balls_of_table(path);
   if (read && read.value().balls.empty()) return file_error(path, "there is no ball");
   return read;
 }

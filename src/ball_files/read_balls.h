@@ -29,11 +29,12 @@ Result<BallsWithSpokes> parse_balls_with_spokes(std::string_view text, const std
 /// Which balls of a body file.
 enum class BodyBalls { kInside, kCover };
 
-/// A medial PLY has the balls of its points, a body file (.npz) those of `of_body`; any other name is that of a table;
-/// "-": a table on standard input. Errors: kInvalidMesh (the file cannot be read, or has no ball), kOutOfMemory.
+/// A medial PLY has the balls of its points, a body file (.npz) those of `of_body`; other .npz and .json are those of
+/// medial points, curvatures and fitted spheres (ball_arrays.h); any other name but .glb is that of a table; "-": a
+/// table on standard input. Errors: kInvalidMesh (the file cannot be read, or has no ball), kOutOfMemory.
 Result<std::vector<Ball>> read_balls(const std::string& path, BodyBalls of_body = BodyBalls::kInside);
 
-/// The same, with the spokes of a medial PLY, or of a table that has their columns. A body file has none.
+/// The same, with the spokes of medial points, or of a table that has their columns. A body file has none.
 Result<BallsWithSpokes> read_balls_with_spokes(const std::string& path, BodyBalls of_body = BodyBalls::kInside);
 
 }  // namespace medial_vk

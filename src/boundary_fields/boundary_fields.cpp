@@ -68,8 +68,8 @@ void add_curvature(BoundaryFields& fields, std::span<const VertexCurvature> of_v
 }
 
 std::string_view state_name(CurvatureState state) {
-  constexpr std::array<std::string_view, kCurvatureStates> kNames = {"known", "cut",    "curve", "point",    "seam",
-                                                                     "few",   "nested", "focal", "uncertain"};
+  constexpr std::array<std::string_view, kCurvatureStates> kNames = {
+      "known", "cut", "curve", "point", "seam", "few", "nested", "focal", "uncertain", "exposed"};
   return kNames[static_cast<std::size_t>(state)];
 }
 

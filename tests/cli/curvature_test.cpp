@@ -1,13 +1,16 @@
 // `medial-vk curvature` from outside: exit codes, streams, files. Everything here runs without a Vulkan device.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "tool_test.h"
@@ -153,6 +156,68 @@ TEST_F(CurvatureCommand, SaysWhatIsWrong) {
     EXPECT_THAT(result.err, HasSubstr("Try medial-vk curvature --help."));
   }
 }
+
+TEST_F(CurvatureCommand, ReadsWhatTheProgramWrites) {
+  write_file(scratch_.path("with.csv"), wall_table(true));
+  ASSERT_EQ(run({"with.csv", "-q", "-o", "direct.csv"}).exit_code, 0);
+  ASSERT_EQ(run({"with.csv", "-q", "-o", "arrays.npz"}).exit_code, 0);
+  ASSERT_EQ(run({"with.csv", "-q", "-o", "list.json"}).exit_code, 0);
+  for (const char* file : {"arrays.npz", "list.json"}) {
+    const ToolResult result = run({file, "-o", "again.csv"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("1,600 balls"));
+    // Without spokes in the file, either tip may be the first; states and balls are the same.
+    const std::string again = read_file(scratch_.path("again.csv")), direct = read_file(scratch_.path("direct.csv"));
+    EXPECT_EQ(std::ranges::count(again, '\n'), std::ranges::count(direct, '\n'));
+  }
+}
+
+TEST_F(CurvatureCommand, ReadsMedialPointsAndFittedSpheresAsJson) {
+  const std::string point = R"({"centre":[0,0,0],"radius":2,"spoke_a":[1,0,0],"spoke_b":[0,1,0]})";
+  write_file(scratch_.path("points.json"), R"({"format":1,"points":[)" + point + "]}");
+  EXPECT_EQ(run({"points.json", "-q", "--method", "source", "-o", "p.csv"}).exit_code, 0);
+  write_file(scratch_.path("spheres.json"), R"({"spheres":[{"centre":[0,0,0],"radius":2}],"levels":[]})");
+  const ToolResult spheres = run({"spheres.json", "-o", "-", "-q"});
+  ASSERT_EQ(spheres.exit_code, 0) << spheres.err;
+  EXPECT_THAT(spheres.out, HasSubstr("0,0,point,0,0,0,2,"));
+  const auto message_of = [&](const std::string& text) {
+    write_file(scratch_.path("wrong.json"), text);
+    const ToolResult result = run({"wrong.json"});
+    EXPECT_EQ(result.exit_code, 3);
+    return result.err;
+  };
+  EXPECT_THAT(message_of("{"), HasSubstr("wrong.json: this is no JSON"));
+  EXPECT_THAT(message_of("[]"), HasSubstr("wrong.json: there is no list points, spheres or balls"));
+  EXPECT_THAT(message_of(R"({"links":{}})"), HasSubstr("the links of a robot"));
+  EXPECT_THAT(message_of(R"({"spheres":[{"centre":[0,0],"radius":2}]})"), HasSubstr("ball 0: there must be a centre"));
+  EXPECT_THAT(message_of(R"({"spheres":[{"centre":[0,0,0],"radius":0}]})"), HasSubstr("ball 0: the radius 0 is not"));
+  EXPECT_THAT(message_of(R"({"spheres":[]})"), HasSubstr("there is no ball"));
+  write_file(scratch_.path("balls.glb"), "glTF");
+  EXPECT_THAT(run({"balls.glb"}).err, HasSubstr("balls.glb: glTF has balls as nodes or triangles"));
+  write_file(scratch_.path("no.npz"), "PK");
+  EXPECT_EQ(run({"no.npz"}).exit_code, 3);
+}
+
+class InterruptedCurvature : public CurvatureCommand, public testing::WithParamInterface<int> {};
+
+TEST_P(InterruptedCurvature, NothingIsWritten) {
+  std::string table = "x,y,z,radius\n";
+  for (int i = 0; i < 150; ++i) {
+    for (int j = 0; j < 150; ++j) table += std::to_string(i) + "," + std::to_string(j) + ",0,9\n";
+  }
+  write_file(scratch_.path("plate.csv"), table);
+  test::Tool tool({.arguments = {"curvature", "plate.csv", "-o", "c.ply"}, .folder = scratch_.path("")});
+  // More than reading takes, and less than the fits of 22,500 balls.
+  while (tool.running() && tool.seconds_of_processor() < 1) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  ASSERT_TRUE(tool.running());
+  tool.send(GetParam());
+  const ToolResult result = tool.wait();
+  EXPECT_EQ(result.exit_code, 130) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("interrupted; nothing was written"));
+  EXPECT_THAT(scratch_.names(), ElementsAre("plate.csv"));
+}
+
+INSTANTIATE_TEST_SUITE_P(, InterruptedCurvature, testing::Values(SIGINT, SIGTERM));
 
 }  // namespace
 }  // namespace medial_vk

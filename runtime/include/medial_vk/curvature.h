@@ -45,8 +45,8 @@ enum class CurvatureState : std::uint8_t {
   /// No other ball overlaps this one, but for those in it and those whose centres all but coincide with its centre: the
   /// boundary is its sphere, and both curvatures are 1 / radius.
   kPoint,
-  kSeam,    ///< Unknown: sheets meet here.
-  kFew,     ///< Unknown: too few neighbours.
+  kSeam,    ///< Unknown: sheets meet here, and no exposed region tells the spoke.
+  kFew,     ///< Unknown: too few neighbours, and no exposed region tells the spoke.
   kNested,  ///< Unknown: the ball all but lies in another one, as those at noise of the boundary do.
   /// Unknown. Fits: r kappa >= 1, so that the fit is impossible (a ball that touches from inside has r kappa <= 1) or
   /// the tip is at a rim, where r kappa is 1. Differences: the radial curvature condition fails, r kappa_r >= 1
@@ -56,9 +56,13 @@ enum class CurvatureState : std::uint8_t {
   /// or of 0.1 / r, whichever is more; they differ by more than a twelfth of that. Differences: the eigenvalues of the
   /// radial shape operator are complex.
   kUncertain,
+  /// Fits: the ball lies at a seam or has too few neighbours for the gradient of its radius; the spoke is the mean
+  /// direction of a part of its sphere that no other ball covers, and `normal_error` the greatest angle in that part.
+  /// Where tips around it allow a fit, spoke and curvatures are those of the fit; otherwise the curvatures are NaN.
+  kExposed,
 };
 
-/// True for the states in which both curvatures and the spoke are values from fits or differences.
+/// True for the states in which both curvatures and the spoke are values from fits or differences along a sheet.
 inline bool is_known(CurvatureState state) { return state == CurvatureState::kKnown || state == CurvatureState::kCut; }
 
 /// The boundary at the tip of a spoke. Numbers that are not known are NaN.
@@ -82,7 +86,8 @@ struct TipCurvature {
   double error = kUnknown;
   /// The standard deviation of the curvatures by the residuals of the fit alone; of kFits.
   double spread = kUnknown;
-  double normal_error = kUnknown;  ///< An estimate of the error of the spoke, radians; of kFits.
+  double normal_error = kUnknown;  ///< An estimate of the error of the spoke, radians; of kFits. Without curvatures in
+                                   ///< the state kExposed: a bound, if no ball reaches out of the solid.
   double window = kUnknown;        ///< The radius of the window on the boundary, in the units of the balls.
 };
 

@@ -75,7 +75,10 @@ FitLadder::FitLadder(const SheetLinks& links, unsigned threads, const StageProgr
     if (progress) progress(stage, done);
   };
   report("sheets", 0);
-  fit_sheets(links, threads);
+  Uses used;
+  fit_sheets(links, threads, used);
+  add_exposed(links, threads, used);
+  for (std::size_t k = 0; k < kSteps; ++k) compact(used[k], steps_[k]);
   for (std::size_t i = 0; i < kSteps; ++i) {
     report("tips", static_cast<double>(i) / kSteps);
     if (stop.stop_requested()) return;
@@ -86,13 +89,13 @@ FitLadder::FitLadder(const SheetLinks& links, unsigned threads, const StageProgr
   report("windows", 1);
 }
 
-void FitLadder::fit_sheets(const SheetLinks& links, unsigned threads) {
+void FitLadder::fit_sheets(const SheetLinks& links, unsigned threads, Uses& used) {
   const std::size_t count = links.balls().size();
   for (LadderStep& step : steps_) {
     step.cloud = {std::vector<Point>(2 * count), std::vector<Point>(2 * count)};
     step.is_cut.resize(count);
   }
-  std::array<std::vector<std::uint8_t>, kSteps> kept, used;
+  std::array<std::vector<std::uint8_t>, kSteps> kept;
   for (std::size_t k = 0; k < kSteps; ++k) {
     used[k].resize(2 * count);
     kept[k].assign(count, 1);
@@ -117,14 +120,46 @@ void FitLadder::fit_sheets(const SheetLinks& links, unsigned threads) {
       }
     }
   });
-  for (std::size_t k = 0; k < kSteps; ++k) compact(used[k], steps_[k]);
+}
+
+/// Where the gradient of the radius along the sheet is not known, at seams and where neighbours are few, the exposed
+/// regions of the ball tell the places of its tips.
+void FitLadder::add_exposed(const SheetLinks& links, unsigned threads, Uses& used) {
+  const auto count = static_cast<std::uint32_t>(links.balls().size());
+  std::vector<std::uint32_t> numbers;
+  numbers.reserve(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const CurvatureState state = links.shape(i).state;
+    const auto is_used = [i](const std::vector<std::uint8_t>& of_width) { return of_width[2 * std::size_t{i}] != 0; };
+    const bool has_no_fit = state == CurvatureState::kKnown && std::ranges::none_of(used, is_used);
+    if (state == CurvatureState::kSeam || state == CurvatureState::kFew || has_no_fit) numbers.push_back(i);
+  }
+  exposed_ = exposed_spokes(links, numbers, threads, stop_);
+  exposed_of_.assign(count, kNone);
+  for (std::uint32_t place = 0; place < numbers.size(); ++place) {
+    if (exposed_[place].count == 0) continue;
+    const std::uint32_t ball = numbers[place];
+    exposed_of_[ball] = place;
+    const auto& [centre, radius] = links.balls()[ball];
+    for (std::size_t side = 0; side < exposed_[place].count; ++side) {
+      const std::size_t tip = 2 * std::size_t{ball} + side;
+      const Point& spoke = exposed_[place].spokes[side];
+      for (std::size_t k = 0; k < kSteps; ++k) {
+        steps_[k].cloud.tips[tip] = centre + radius * spoke;
+        steps_[k].cloud.normals[tip] = spoke;
+        used[k][tip] = 1;
+      }
+    }
+  }
 }
 
 void FitLadder::fit_tips(std::size_t step, double radius, unsigned threads) {
   LadderStep& at = steps_[step];
   at.fits.resize(2 * at.is_cut.size());
   const PointGrid grid(at.cloud.tips, radius / 3);
-  at.is_kept.assign(at.numbers.size(), 1);
+  at.is_kept.resize(at.numbers.size());
+  const auto is_of_sheet = [&](std::uint32_t tip) -> std::uint8_t { return exposed_of_[tip / 2] == kNone ? 1 : 0; };
+  std::ranges::transform(at.numbers, at.is_kept.begin(), is_of_sheet);
   thin_out(at.cloud.tips, grid, kThinning * radius, at.is_kept);
   parallel_for(at.numbers.size(), 64, threads, [&](std::size_t i) {
     if (stop_.stop_requested()) return;

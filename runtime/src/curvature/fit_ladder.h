@@ -6,6 +6,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "curvature/exposed_spokes.h"
 #include "curvature/sheet_fit.h"
 #include "curvature/tip_fit.h"
 #include "medial_vk/progress.h"
@@ -24,7 +25,8 @@ inline constexpr double kThinning = 1.0 / 9;
 struct LadderStep {
   TipCloud cloud;                      ///< The tips that are known.
   std::vector<std::uint32_t> numbers;  ///< Of those: twice the ball's, and one more for its second tip; ascending.
-  std::vector<std::uint8_t> is_kept;   ///< By place in the cloud: that the windows on the boundary hold it.
+  std::vector<std::uint8_t> is_kept;   ///< By place in the cloud: that the windows on the boundary hold it. Exposed
+                                       ///< regions tell where a tip is, but not well enough to take part in fits.
   std::vector<std::uint8_t> is_cut;    ///< By ball: that the window on its sheet is cut.
   std::vector<TipFit> fits;            ///< By number of the tip.
 };
@@ -44,13 +46,25 @@ class FitLadder {
   };
   const Choice& choice(std::size_t tip) const { return choices_[tip]; }
 
+  /// Of a ball that no width gives spokes along its sheet, and that has two exposed regions; otherwise null.
+  const ExposedSpokes* exposed(std::uint32_t ball) const {
+    return exposed_of_[ball] == kNone ? nullptr : &exposed_[exposed_of_[ball]];
+  }
+
  private:
-  void fit_sheets(const SheetLinks& links, unsigned threads);
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+  /// By width and number of the tip: whether it is in the cloud.
+  using Uses = std::array<std::vector<std::uint8_t>, kWindows.size()>;
+
+  void fit_sheets(const SheetLinks& links, unsigned threads, Uses& used);
+  void add_exposed(const SheetLinks& links, unsigned threads, Uses& used);
   void fit_tips(std::size_t step, double radius, unsigned threads);
   void choose(double spacing, unsigned threads);
 
   std::array<LadderStep, kWindows.size()> steps_;
   std::vector<Choice> choices_;
+  std::vector<std::uint32_t> exposed_of_;  // by ball: its place, or kNone
+  std::vector<ExposedSpokes> exposed_;
   std::stop_token stop_;
 };
 

@@ -53,6 +53,11 @@ Status check(std::span<const Ball> balls, const CurvatureOptions& options, std::
   return {};
 }
 
+/// Above this, a value is uncertain.
+double greatest_error(const TipCurvature& tip, double radius) {
+  return kUncertainShare * std::max({std::fabs(tip.kappa[0]), std::fabs(tip.kappa[1]), 0.1 / radius});
+}
+
 /// Curvatures and directions of a form, at a tip with this normal.
 void set_axes(const TipFit& fit, TipCurvature& tip) {
   const Point x = perpendicular_to(fit.normal), y = cross(fit.normal, x);
@@ -69,6 +74,30 @@ void set_axes(const TipFit& fit, TipCurvature& tip) {
   }
 }
 
+/// At the spoke of an exposed region. Fits to the tips of sheets around it are believed where their normal is one of
+/// the region's, up to its own error.
+TipCurvature exposed_tip(const SheetLinks& links, const FitLadder& ladder, std::size_t at, const Point& spoke,
+                         double reach) {
+  TipCurvature tip;
+  tip.state = CurvatureState::kExposed;
+  tip.normal = spoke;
+  tip.normal_error = reach;
+  const FitLadder::Choice& choice = ladder.choice(at);
+  if (choice.step == 0) return tip;
+  const TipFit& fit = ladder.step(choice.step).fits[at];
+  const double radius = links.balls()[at / 2].radius;
+  TipCurvature known = tip;
+  known.normal = fit.normal;
+  known.normal_error = kErrorFactor * choice.angle_difference;
+  known.window = kWindows[choice.step] * links.spacing();
+  set_axes(fit, known);
+  known.error = kErrorFactor * choice.form_difference;
+  known.spread = fit.spread;
+  const double off = std::atan2(length(cross(fit.normal, spoke)), dot(fit.normal, spoke));
+  const bool agrees = off <= reach + known.normal_error && radius * known.kappa[0] < 1;
+  return agrees && known.error <= greatest_error(known, radius) ? known : tip;
+}
+
 TipCurvature tip_of(const SheetLinks& links, const FitLadder& ladder, std::uint32_t ball, std::size_t side) {
   TipCurvature tip;
   const LocalShape& shape = links.shape(ball);
@@ -82,8 +111,12 @@ TipCurvature tip_of(const SheetLinks& links, const FitLadder& ladder, std::uint3
   if (shape.state == CurvatureState::kCurve || shape.state == CurvatureState::kPoint) {
     tip.error = shape.blur / radius / radius;
   }
-  if (shape.state != CurvatureState::kKnown) return tip;
   const std::size_t at = 2 * std::size_t{ball} + side;
+  const ExposedSpokes* exposed = ladder.exposed(ball);
+  if (exposed != nullptr && side < exposed->count) {
+    return exposed_tip(links, ladder, at, exposed->spokes[side], exposed->reaches[side]);
+  }
+  if (shape.state != CurvatureState::kKnown) return tip;
   const FitLadder::Choice& choice = ladder.choice(at);
   tip.state = CurvatureState::kFew;
   if (choice.step == 0) return tip;
@@ -96,9 +129,8 @@ TipCurvature tip_of(const SheetLinks& links, const FitLadder& ladder, std::uint3
   set_axes(fit, known);
   known.error = kErrorFactor * choice.form_difference;
   known.spread = fit.spread;
-  const double greater = std::max(std::fabs(known.kappa[0]), std::fabs(known.kappa[1]));
   tip.state = CurvatureState::kUncertain;
-  if (!(known.error <= kUncertainShare * std::max(greater, 0.1 / radius))) return tip;
+  if (!(known.error <= greatest_error(known, radius))) return tip;
   tip.state = CurvatureState::kFocal;
   if (radius * known.kappa[0] >= 1) return tip;
   known.state = fit.is_cut || step.is_cut[ball] != 0 ? CurvatureState::kCut : CurvatureState::kKnown;

@@ -51,6 +51,7 @@ FramedWindow window_around(const TipCloud& cloud, std::span<const std::uint8_t> 
     sum = sum + near.back().weight * cloud.normals[other];
   });
   FramedWindow window;
+  if (near.empty()) return window;  // the tip itself is one of them, if it is kept
   window.frame.up = 1 / length(sum) * sum;
   window.alignment = length(sum) / weights;
   window.frame.x = perpendicular_to(window.frame.up);

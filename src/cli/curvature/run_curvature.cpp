@@ -49,7 +49,7 @@ class CurvatureRun {
     if (options_.curvature.method == CurvatureMethod::kDifferences && input_.spokes.empty()) {
       return Error{
           ErrorCode::kInvalidMesh,
-          fmt::format("{}: there are no spokes, which --method source needs; a medial PLY has them", options_.balls)};
+          fmt::format("{}: there are no spokes, which --method source needs; medial points have them", options_.balls)};
     }
     times_.push_back({"read", stopwatch.lap()});
     return {};

@@ -11,8 +11,9 @@ no Vulkan.
 
 Usage:
   medial-vk curvature [options] BALLS   a table (.csv) with the columns x, y, z
-                                        and radius; a medial PLY; a body file
-                                        (.npz); "-": a table on standard input
+                                        and radius; a medial PLY; .npz or .json
+                                        that this program wrote; "-": a table on
+                                        standard input
 
 Examples:
   medial-vk turtle.obj --object-angle 0.3 -o turtle.medial.ply
@@ -50,9 +51,11 @@ Other:
 Curvatures are positive where the boundary is convex; the greater one is first.
 Balls that reach to the rims of sheets give better values: find them with an
 object angle of 0.3. States of a place of contact: known; cut (by a rim or a
-seam); curve (one curvature is known, around a tube); point (a sphere). Unknown
-are: seam, few (neighbours), nested (in another ball), focal (no such boundary),
-uncertain (the error would be too great). Files appear whole or not at all.
+seam); curve (one curvature is known, around a tube); point (a sphere); exposed
+(at a seam or with few neighbours: the part of the ball that no other one covers
+tells the place). Unknown are: seam, few (neighbours), nested (in another ball),
+focal (no such boundary), uncertain (the error would be too great). Files appear
+whole or not at all.
 
 Exit codes: 0 done, 1 internal error, 2 wrong usage, 3 balls unreadable or
 invalid, 5 out of memory, 6 cannot write, 130 interrupted.

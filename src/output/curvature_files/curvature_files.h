@@ -17,7 +17,6 @@ struct CurvatureTable {
   CurvatureMethod method = CurvatureMethod::kFits;
 };
 
-/// The word in tables: "known", "cut", "curve", "point", "seam", "few", "nested", "focal" or "uncertain".
 /// "fits" or "source".
 const char* name_of(CurvatureMethod method);
 
