@@ -90,11 +90,11 @@ struct LeastDistance {
 /// distance_bounds() and distance(), all rounding errors are included, also those of the relative poses: the interval
 /// contains the least distance for the poses as they are. A proved hit ends the search: the least distance is then 0.
 /// `start` may be the result of an earlier query of the same group: the search then begins with its parts, and is
-/// faster if the poses have changed little. Allocates nothing. A group without compared parts is free, at infinity.
-/// Precondition: the rows of the rotations are perpendicular unit vectors to within 1e-13. Where a coordinate of a
-/// shift is beyond 1e18, or no number, the interval may be 0 and infinity. A request to `stop` ends the search before
-/// its next part, or within two parts at the next comparison of triangles. Errors: kUsage (not one pose for each link,
-/// an option that is negative or no number, `exact` for a body without a mesh), kInterrupted.
+/// faster if the poses have changed little. Allocates nothing, unless stopped. A group without compared parts is free,
+/// at infinity. Precondition: the rows of the rotations are perpendicular unit vectors to within 1e-13. Where a
+/// coordinate of a shift is beyond 1e18, or no number, the interval may be 0 and infinity. A request to `stop` ends the
+/// search before its next part, or within two parts at the next comparison of triangles. Errors: kUsage (not one pose
+/// for each link, an option that is negative or no number, `exact` for a body without a mesh), kInterrupted.
 Result<LeastDistance> least_distance(const BodyGroup& group, std::span<const Pose> poses,
                                      const GroupOptions& options = {}, const LeastDistance& start = {},
                                      const std::stop_token& stop = {});

@@ -160,7 +160,8 @@ struct Distance {
 /// are included: the interval contains the distance of the meshes as they are, and is wider than the tolerance by about
 /// 2e-14 times the coordinates (more next to very thin triangles and to edges that are nearly parallel). `upper` is 0
 /// only where a common point is proved. `start` may be the result of an earlier query of the same two bodies, as for
-/// distance_bounds(). Allocates nothing. Precondition: as for distance_bounds(); likewise for shifts beyond 1e18.
+/// distance_bounds(). Allocates nothing, unless stopped. Precondition: as for distance_bounds(); likewise for shifts
+/// beyond 1e18.
 /// A request to `stop` ends the search at its next comparison of triangles. Errors: kUsage (a body without a mesh, an
 /// option that is negative or no number), kInterrupted.
 Result<Distance> distance(const Body& a, const Body& b, const Pose& pose, const DistanceOptions& options = {},
@@ -211,9 +212,9 @@ struct FirstContact {
 /// The first contact of `b`, in motion, with `a`: not before `free_until`, and no later than `contact_at`, which is no
 /// more than the tolerance after a time without proved contact. By conservative advancement: a time at which the
 /// distance is d is followed by one until which no point of b moves farther than d. Takes some tens of distances; more,
-/// up to the inverse of the tolerance, where the bodies slide past each other. Allocates nothing. Precondition: both
-/// poses are as for distance_bounds(). A request to `stop` ends the search at its next comparison of triangles. Errors:
-/// those of distance(); kUsage (an option that is negative, too small or no number).
+/// up to the inverse of the tolerance, where the bodies slide past each other. Allocates nothing, unless stopped.
+/// Precondition: both poses are as for distance_bounds(). A request to `stop` ends the search at its next comparison of
+/// triangles. Errors: those of distance(); kUsage (an option that is negative, too small or no number).
 Result<FirstContact> first_contact(const Body& a, const Body& b, const Motion& motion,
                                    const ContactOptions& options = {}, const std::stop_token& stop = {});
 

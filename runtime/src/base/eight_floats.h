@@ -8,6 +8,10 @@
 #include <cstdint>
 #include <cstring>
 
+#if defined(__SSE__) && defined(__GNUC__)
+#include <xmmintrin.h>
+#endif
+
 // Functions that return such vectors are inlined, so the calls on which compilers differ do not exist.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
@@ -33,13 +37,11 @@ MEDIAL_VK_INLINE std::array<float, 8> stored(const EightFloats& floats) {
 
 MEDIAL_VK_INLINE EightFloats square_root(const EightFloats& floats) {
 #if defined(__SSE__) && defined(__GNUC__)
-  using FourFloats = float __attribute__((vector_size(16)));
-  std::array<FourFloats, 2> halves;
-  std::memcpy(halves.data(), &floats, sizeof floats);
-  for (FourFloats& half : halves) half = __builtin_ia32_sqrtps(half);
-  EightFloats roots;
-  std::memcpy(&roots, halves.data(), sizeof roots);
-  return roots;
+  std::array<float, 8> roots = stored(floats);
+  for (std::size_t half = 0; half < 8; half += 4) {
+    _mm_storeu_ps(roots.data() + half, _mm_sqrt_ps(_mm_loadu_ps(roots.data() + half)));
+  }
+  return load(roots);
 #else
   std::array<float, 8> values = stored(floats);
   for (float& value : values) value = std::sqrt(value);

@@ -45,12 +45,13 @@ MEDIAL_VK_INLINE void improve(EightPoints& nearest, EightFloats& squared, const 
 /// the nearest point of the triangle for s, the least product is its distance, so that few triangles beyond the bound
 /// are left.
 ///
-/// A disk with the axis n, for the middle m of the box, from which it was computed as it is here: a point x of the
-/// surface and the query q have x - q = (x - m) + (m - q), and so have the products with n and the rest across it,
-/// x - (n.x) n, both of which are linear. So the product is beyond n.(m - q) + low or below n.(m - q) + high, and the
-/// rest is no shorter than that of m - q less the radius. The product has an error of 10 u far (4 of m - q, 3 of the
-/// sum, 1 of low or high, 2 as |n| = 1 up to 2 u), the rest one of 16 u far (4, 6 by the product, 3 of the sum, 3 of
-/// length and radius); their sum of squares is |x - q|^2 up to 4 u of it.
+/// A disk with the axis n. Let m be the middle of the box, in float, by the same operations as in fit_disk(), and let
+/// P(v) = v - (n.v) n. P and the product with n are linear, and x - q = (x - m) + (m - q) for a point x of the surface
+/// and the query q. So n.(x - q) is at least n.(m - q) + low and at most n.(m - q) + high, and |P(x - q)| is at least
+/// |P(m - q)| less the radius. n.(m - q) + low and the like have an error of 10 u far (4 of m - q, 3 of the sum, 1 of
+/// low or high, 2 as |n| = 1 up to 2 u), |P(m - q)| less the radius one of 16 u far (4, 6 by the product, 3 of the sum,
+/// 3 of length and radius). (n.v)^2 + |P(v)|^2 is |v|^2 up to 4 u of it, so the distance has an error of less than
+/// sqrt(10^2 + 16^2) + 3 < 22 u far.
 ///
 /// All are passed over only if the computed distance is above the bound by 32 u far and a share of 2^-20, which also
 /// holds the roundings of squares and of their quotient.

@@ -24,9 +24,9 @@ MEDIAL_VK_INLINE ClosestBalls pair_of(const BodyTree& a, const BodyTree& b, cons
   return {separation_of(a.leaf(pair.a), b.leaf(pair.b), pose), pair};
 }
 
-/// Numbers below 64 in the lowest bits of separations, whose order they keep, roughly, if `bias` makes them positive:
-/// of positive floats the greater one has the greater bits. The least key gives the least separation and its number in
-/// as many steps as the least separation alone.
+/// Separations as integers, each with a number below 64 in its lowest six bits. With a `bias` that makes all
+/// separations positive, keys have nearly their order, as of positive floats the greater one has the greater bits. The
+/// least key gives the least separation and its number in as many steps as the least separation alone.
 MEDIAL_VK_INLINE EightInts keys_of(const EightFloats& separations, float bias, const EightInts& numbers) {
   return (reinterpret_cast<EightInts>(separations + bias) & ~63) | numbers;
 }
@@ -77,7 +77,9 @@ class BallSearch {
         0, 0, {0, 0, 0, rounded_up(a_.reach())}, {shift[0], shift[1], shift[2], rounded_up(b_.reach())}};
     open(roots, stored(in_frame_of_a(b_.node(0), pose_)));
     while (!is_reached()) {
-      if (lowest_count_ < kManyLowest && count_ > 0) {
+      if (!has_dived_ && count_ + lowest_count_ > kManyWithoutDive) {
+        (void)dive();
+      } else if (lowest_count_ < kManyLowest && count_ > 0) {
         divide_some();
       } else if (lowest_count_ > 0) {
         compare_lowest();
@@ -93,6 +95,7 @@ class BallSearch {
   static constexpr std::size_t kBatch = 32;       // pairs of nodes that are compared together
   static constexpr std::size_t kMostDivided = 8;  // and of those, whose nodes are then replaced
   static constexpr std::size_t kManyLowest = 64;
+  static constexpr std::size_t kManyWithoutDive = 24;  // so many pairs wait only if the first bound is poor
 
   /// A ball around all that a node holds, in the frame of a.
   struct Around {
@@ -111,6 +114,7 @@ class BallSearch {
   /// Straight down to two items, by way of the closest two balls of each two nodes. The separation of the two balls
   /// around the last two nodes, roughly, or kFarther.
   MEDIAL_VK_INLINE float dive() {
+    has_dived_ = true;
     const float bias = bias_of(a_, b_);
     float above = kFarther;
     std::uint32_t node_a = 0, node_b = 0;
@@ -253,6 +257,7 @@ class BallSearch {
   const FloatPose& pose_;
   float enough_;
   ClosestBalls best_;
+  bool has_dived_ = false;
   std::size_t count_ = 0, lowest_count_ = 0;
   std::array<Task, 1 + (kPairs - 1) * 2 * node_levels(kMostBodyBalls) + kPairs * kMostDivided> tasks_;
   std::array<Task, kManyLowest + kPairs * kMostDivided> lowest_;  // whose nodes are of the lowest level

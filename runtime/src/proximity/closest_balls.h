@@ -20,7 +20,7 @@ ClosestBalls closest_balls(const BodyTree& a, const BodyTree& b, const FloatPose
                            float enough, float most = kFarther);
 
 /// Balls near the closest points of two balls of other sets of the bodies, each in its frame: where closest_balls() may
-/// start. Preconditions and times are the same.
+/// start. Precondition: no tree is empty. Allocates nothing.
 BallPair balls_near(const BodyTree& a, const BodyTree& b, const FloatPose& pose, const FloatBall& of_a,
                     const FloatBall& of_b);
 

@@ -60,7 +60,7 @@ DistanceBounds distance_bounds(const Body& a, const Body& b, const Pose& pose, c
   if (!in_a.inside_tree.is_empty() && !in_b.inside_tree.is_empty()) {
     bounds.inside_pair = start.inside_pair;
     // Where the covers are apart, the closest balls inside are near the closest ones of the covers.
-    if (bounds.inside_pair == BallPair{} && bounds.lower > 0) {
+    if (bounds.inside_pair == BallPair{} && bounds.lower > 0 && !(bounds.cover_pair == BallPair{})) {
       bounds.inside_pair =
           balls_near(in_a.inside_tree, in_b.inside_tree, placement.float_pose(),
                      in_a.cover_tree.leaf(bounds.cover_pair.a), in_b.cover_tree.leaf(bounds.cover_pair.b));

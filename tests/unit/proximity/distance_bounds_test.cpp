@@ -104,6 +104,21 @@ TEST(DistanceBounds, ANearbyStartChangesNothing) {
   }
 }
 
+/// Balls that are far from the closest ones leave many pairs of nodes at first.
+TEST(DistanceBounds, AStartOfAnUnrelatedPoseChangesNothing) {
+  Random random(22);
+  for (const std::size_t count : {40, 500, 3000}) {
+    const std::vector<Ball> balls = cloud(random, count, {0, 0, 0}, 1);
+    const Body a = body(balls, cloud(random, count, {0, 0, 0}, 1)), b = body(balls, balls);
+    DistanceBounds last;
+    for (int i = 0; i < 30; ++i) {
+      const Pose pose = any_pose(random, point_in_cube(random, 4));
+      last = distance_bounds(a, b, pose, last);
+      expect_bounds(last, a, b, pose, 12);
+    }
+  }
+}
+
 TEST(DistanceBounds, AStartOfOtherBodiesIsIgnored) {
   const Body a = body({{{0, 0, 0}, 1}}, {{{0, 0, 0}, 1}}), b = body({{{0, 0, 0}, 2}}, {{{0, 0, 0}, 2}});
   DistanceBounds start;
