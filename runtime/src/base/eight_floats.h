@@ -8,10 +8,6 @@
 #include <cstdint>
 #include <cstring>
 
-#if defined(__SSE__) && defined(__GNUC__)
-#include <xmmintrin.h>
-#endif
-
 // Functions that return such vectors are inlined, so the calls on which compilers differ do not exist.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
@@ -36,17 +32,9 @@ MEDIAL_VK_INLINE std::array<float, 8> stored(const EightFloats& floats) {
 }
 
 MEDIAL_VK_INLINE EightFloats square_root(const EightFloats& floats) {
-#if defined(__SSE__) && defined(__GNUC__)
-  std::array<float, 8> roots = stored(floats);
-  for (std::size_t half = 0; half < 8; half += 4) {
-    _mm_storeu_ps(roots.data() + half, _mm_sqrt_ps(_mm_loadu_ps(roots.data() + half)));
-  }
-  return load(roots);
-#else
   std::array<float, 8> values = stored(floats);
   for (float& value : values) value = std::sqrt(value);
   return load(values);
-#endif
 }
 
 MEDIAL_VK_INLINE EightFloats select(const EightInts& where, const EightFloats& yes, const EightFloats& no) {
