@@ -151,7 +151,8 @@ TEST_P(LeastWallOf, HoldsWhatTheReferenceFinds) {
   const double longest = prepared.report.longest_side(), toward = options.side == ThicknessSide::kWalls ? -1 : 1;
   if (found.thinnest) expect_touches(found, prepared, options);
   std::vector<Start> starts = starts_in_triangles(tree, toward);
-  for (const Start& start : starts_on_edges(prepared.mesh, tree, toward)) starts.push_back(start);
+  const std::vector<Start> on_edges = starts_on_edges(prepared.mesh, tree, toward);
+  starts.insert(starts.end(), on_edges.begin(), on_edges.end());
   std::vector<Ball> balls;
   for (const auto& [point, direction] : starts) {
     const auto ball = shrunk_ball(tree, point, direction, 0.5 * longest, options.object_angle + 1e-6);
