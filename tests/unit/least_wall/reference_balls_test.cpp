@@ -146,7 +146,7 @@ TEST_P(LeastWallOf, HoldsWhatTheReferenceFinds) {
   const reference::Tree tree(to_reference(prepared));
   LeastWallOptions options = width_of(0.05);
   options.side = GetParam().side;
-  const LeastWall found = least_wall_of(indexed(prepared), options);
+  const LeastWall found = measure_least_wall(indexed(prepared), options).value();
   EXPECT_LE(found.diameter.upper, found.diameter.lower * 1.05 * (1 + 1e-12));
   const double longest = prepared.report.longest_side(), toward = options.side == ThicknessSide::kWalls ? -1 : 1;
   if (found.thinnest) expect_touches(found, prepared, options);
