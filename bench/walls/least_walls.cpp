@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <ctime>
 #include <numbers>
 #include <string>
@@ -68,6 +69,14 @@ std::vector<NamedMesh> generated_solids() {
           {"flat ellipsoid", turned(test::make_ellipsoid({1, 0.8, 0.2}, 60))}};
 }
 
+/// Four digits of an end of an interval: no number above x for a step of -1, none below it for 1.
+std::string rounded_outward(double x, int step) {
+  const std::string nearest = fmt::format("{:.4g}", x);
+  const double read = std::strtod(nearest.c_str(), nullptr);
+  if (step * read >= step * x) return nearest;
+  return fmt::format("{:.4g}", read + step * std::pow(10, std::floor(std::log10(x)) - 3));
+}
+
 void print_row(const NamedMesh& solid, const LeastWallOptions& options, int repeats) {
   const IndexedMesh mesh = or_exit(IndexedMesh::build(or_exit(prepare_mesh(solid.mesh))));
   std::vector<double> seconds, of_processor;
@@ -82,10 +91,10 @@ void print_row(const NamedMesh& solid, const LeastWallOptions& options, int repe
     of_processor.push_back(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
   }
   const Bounds& diameter = wall.diameter;
-  fmt::print("| {} | {} | {:.3f} | {:.4g} to {:.4g} | {:.2f} | {} | {:.2f} | {:.2f} |\n", solid.name,
-             mesh.prepared().mesh.triangles.size(), mesh.longest_side(), diameter.lower, diameter.upper,
-             100 * (diameter.upper / diameter.lower - 1), wall.cells, bench::median(seconds),
-             bench::median(of_processor));
+  fmt::print("| {} | {} | {:.3f} | {} to {} | {:.2f} | {} | {:.2f} | {:.2f} |\n", solid.name,
+             mesh.prepared().mesh.triangles.size(), mesh.longest_side(), rounded_outward(diameter.lower, -1),
+             rounded_outward(diameter.upper, 1), 100 * (diameter.upper / diameter.lower - 1), wall.cells,
+             bench::median(seconds), bench::median(of_processor));
   std::fflush(stdout);
 }
 

@@ -25,7 +25,7 @@ bool are_too_close(const SpokeCone& a, const SpokeCone& b, double theta) {
   return dot(a.axis, b.axis) > 0 && a.angle + b.angle + 2 * kAngleRounding < 2 * theta - 0.5 * std::numbers::pi;
 }
 
-/// False where the planes of both triangles show that they have no point in common.
+/// False where the boxes or the planes of both triangles show that they have no point in common.
 bool may_meet(const FacingTriangle& a, const FacingTriangle& b, double rounding) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto [a_least, a_most] = std::minmax({a.corners[0][axis], a.corners[1][axis], a.corners[2][axis]});
@@ -50,6 +50,7 @@ bool may_meet(const FacingTriangle& a, const FacingTriangle& b, double rounding)
 SpokeCone cap_at(std::span<const FacingTriangle> triangles, std::size_t of, double rounding,
                  std::vector<const SpokeCone*>& meeting) {
   meeting.clear();
+  meeting.reserve(triangles.size());
   Point sum = kNoAxis;
   for (std::size_t k = 0; k < triangles.size(); ++k) {
     if (k != of && !may_meet(triangles[of], triangles[k], rounding)) continue;
@@ -78,11 +79,10 @@ double least_radius_around(double d, double h, double theta) {
   return std::max(0.0, radius - kBoundShare * d);
 }
 
-void spokes_by_normals(std::span<const FacingTriangle> triangles, double rounding, std::vector<SpokeCone>& caps) {
+void spokes_by_normals(std::span<const FacingTriangle> triangles, double rounding,
+                       std::vector<const SpokeCone*>& meeting, std::vector<SpokeCone>& caps) {
   caps.clear();
   caps.reserve(triangles.size());
-  std::vector<const SpokeCone*> meeting;
-  meeting.reserve(triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) caps.push_back(cap_at(triangles, i, rounding, meeting));
 }
 

@@ -34,11 +34,12 @@ struct FacingTriangle {
 double least_radius_around(double d, double h, double theta);
 
 /// By triangle: a cap that holds the spokes of all contacts on it, whichever of the other triangles meet it there.
-/// `rounding`: of heights of corners over planes.
-void spokes_by_normals(std::span<const FacingTriangle> triangles, double rounding, std::vector<SpokeCone>& caps);
+/// `rounding`: of heights of corners over planes. `meeting` is memory for it.
+void spokes_by_normals(std::span<const FacingTriangle> triangles, double rounding,
+                       std::vector<const SpokeCone*>& meeting, std::vector<SpokeCone>& caps);
 
-/// A bound of the radius of balls with the object angle theta and two of the contacts, if it is above `known`, or else
-/// `known`; infinite if no two are possible. Contacts that are not possible are removed.
+/// A bound of the radius of balls with an object angle of theta or more and two of the contacts, if it is above
+/// `known`, or else `known`; infinite if no two are possible. Contacts that are not possible are removed.
 double least_radius_of_pairs(std::vector<PossibleContact>& contacts, double h, double theta, double known);
 
 }  // namespace medial_vk

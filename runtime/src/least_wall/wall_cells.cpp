@@ -20,8 +20,9 @@ constexpr double kAngleSlack = 0x1p-10;
 // With more triangles within reach a cell is divided at once: they would take more time than its parts.
 constexpr std::size_t kMostTriangles = 400;
 
-// Of these, pairs are examined: their number is the square.
-constexpr std::size_t kMostPaired = 32;
+// In cells with up to this many triangles within reach, pairs of contacts are examined; their number grows with its
+// square. The parts of small cells do not have fewer where they are near the apex of a fan.
+constexpr std::size_t kMostPaired = 32, kMostPairedInSmall = 256;
 
 /// Otherwise a cell is too large for directions from its centres to the boundary to be known.
 bool has_directions(double distance, double h) { return h < 0.25 * distance; }
@@ -81,7 +82,7 @@ std::optional<WallCells::Start> WallCells::bound(WallCell& cell, double best) {
   const double angle = std::max(by_normals.object_angle, by_directions.object_angle);
   cell.least = std::max({cell.least, by_normals.least_radius, least_radius_around(d - rounding_, h, angle)});
   if (cell.least >= best) return std::nullopt;
-  cell.least = std::max(cell.least, radius_by_pairs(cell.centre, d, h, cell.least));
+  cell.least = std::max(cell.least, radius_by_pairs(cell, d, h, cell.least));
   if (cell.least >= best) return std::nullopt;
   return Start{hit.point, d, h, angle};
 }
@@ -180,16 +181,18 @@ WallCells::Known WallCells::pairs_by_directions(double distance, double h) {
   return {pairs.are_possible, pairs.object_angle, 0};
 }
 
-/// Of balls around centres in the cell around c; `known` if no more is known.
-double WallCells::radius_by_pairs(const Point& c, double distance, double h, double known) {
-  if (near_.size() > kMostPaired || !has_directions(distance, h)) return known;
+/// A bound of the radius of balls around centres in the cell; `known` if it is no greater.
+double WallCells::radius_by_pairs(const WallCell& cell, double distance, double h, double known) {
+  const Point& c = cell.centre;
+  const std::size_t most = cell.half <= field_.small ? kMostPairedInSmall : kMostPaired;
+  if (near_.size() > most || !has_directions(distance, h)) return known;
   facing_.clear();
   facing_.reserve(near_.size());
   for (const Near& near : near_) {
     const SpokeCone& outward = field_.normals[near.position];
     facing_.push_back({field_.solid.bvh().corners()[near.position], {toward_ * outward.axis, outward.angle}});
   }
-  spokes_by_normals(facing_, rounding_, cones_);
+  spokes_by_normals(facing_, rounding_, meeting_, cones_);
   contacts_.clear();
   edges_.clear();
   const double reach = distance + 2 * h + rounding_;

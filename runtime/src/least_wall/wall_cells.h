@@ -26,7 +26,7 @@ struct WallField {
   const WideTree& tree;
   const std::vector<SpokeCone>& normals;
   LeastWallOptions options;
-  double small = 0;     ///< Half the side of cells in which fans of any number of triangles are examined.
+  double small = 0;     ///< Half the side of cells in which more triangles are examined, as beside the apex of a fan.
   double rounding = 0;  ///< Of distances and of the centres of cells.
 };
 
@@ -74,7 +74,7 @@ class WallCells {
   Known pairs_by_normals();
   SpokeCone direction_to(const NearestOffset& offset, double distance, double h) const;
   Known pairs_by_directions(double distance, double h);
-  double radius_by_pairs(const Point& c, double distance, double h, double known);
+  double radius_by_pairs(const WallCell& cell, double distance, double h, double known);
   void bound_by_heights(Known& known) const;
   std::optional<Point> common_vertex() const;
   double cone_radius(const Point& vertex);
@@ -95,6 +95,7 @@ class WallCells {
   std::vector<std::uint32_t> nearby_;
   std::vector<Near> near_;
   std::vector<SpokeCone> cones_;  // by triangle within reach
+  std::vector<const SpokeCone*> meeting_;
   std::vector<FacingTriangle> facing_;
   std::vector<std::pair<Point, Point>> edges_;  // within reach
   std::vector<PossibleContact> contacts_;

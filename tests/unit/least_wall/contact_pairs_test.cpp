@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -31,7 +32,7 @@ class RandomContacts {
 
   /// Of a random axis, that holds the direction.
   SpokeCone cone_around(const Point& direction_inside) {
-    const Point moved = direction_inside + 0.3 * share() * direction();
+    const Point moved = direction_inside + share() * direction();
     const Point axis = (1 / length(moved)) * moved;
     return {axis, angle_between(axis, direction_inside) + kAngleRounding};
   }
@@ -117,17 +118,23 @@ FacingTriangle facing(const Point& a, const Point& b, const Point& c) {
   return {{a, b, c}, {(1 / length(area)) * area, 0}};
 }
 
+std::vector<SpokeCone> caps_of(std::span<const FacingTriangle> triangles) {
+  std::vector<const SpokeCone*> memory;
+  std::vector<SpokeCone> caps;
+  spokes_by_normals(triangles, 1e-15, memory, caps);
+  return caps;
+}
+
 // Two triangles at an edge, one below that is parallel to the first, and one with a corner inside the first.
 TEST(ContactPairs, TakeNormalsOfTrianglesThatMeet) {
   const std::vector<FacingTriangle> triangles = {
       facing({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), facing({0, 1, 0}, {1, 0, 0}, {1, 1, -0.3}),
       facing({0, 0, -0.1}, {0, 1, -0.1}, {1, 0, -0.1}), facing({0.2, 0.2, 0}, {0.3, 0.3, 0.1}, {0.1, 0.2, 0.1})};
-  std::vector<SpokeCone> caps;
-  spokes_by_normals({triangles.data(), 3}, 1e-15, caps);
+  std::vector<SpokeCone> caps = caps_of({triangles.data(), 3});
   EXPECT_TRUE(holds(caps[0], triangles[0].normal.axis) && holds(caps[0], triangles[1].normal.axis));
   EXPECT_LT(caps[0].angle, 0.3);
   EXPECT_LT(caps[2].angle, 1e-6);
-  spokes_by_normals(triangles, 1e-15, caps);
+  caps = caps_of(triangles);
   for (const std::size_t i : {0u, 1u, 3u}) EXPECT_TRUE(holds(caps[0], triangles[i].normal.axis)) << i;
   EXPECT_TRUE(holds(caps[3], triangles[0].normal.axis));
 }
@@ -136,9 +143,19 @@ TEST(ContactPairs, KnowNothingBesideAnUnknownNormal) {
   std::vector<FacingTriangle> triangles = {facing({0, 0, 0}, {1, 0, 0}, {0, 1, 0}),
                                            facing({0, 1, 0}, {1, 0, 0}, {1, 1, -0.3})};
   triangles[1].normal = {};
-  std::vector<SpokeCone> caps;
-  spokes_by_normals(triangles, 1e-15, caps);
-  for (const SpokeCone& cap : caps) EXPECT_EQ(cap.axis, (Point{0, 0, 0}));
+  for (const SpokeCone& cap : caps_of(triangles)) EXPECT_EQ(cap.axis, (Point{0, 0, 0}));
+}
+
+// Two triangles of a plane, and one whose normal is turned from theirs by an angle t, meet at a vertex. That normal has
+// the angle t - atan(sin t / (2 + cos t)) with their sum: 92 degrees for t = 122, and 82 degrees for t = 112.
+TEST(ContactPairs, KnowNoCapWiderThanAHemisphere) {
+  const auto caps_for = [](double degrees) {
+    const double t = degrees * std::numbers::pi / 180;
+    return caps_of(std::vector{facing({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), facing({0, 0, 0}, {0, 1, 0}, {-1, 0, 0}),
+                               facing({1, 0, 0}, {0, 0, 0}, {0.5, -std::cos(t), -std::sin(t)})});
+  };
+  for (const SpokeCone& cap : caps_for(122)) EXPECT_EQ(cap.axis, (Point{0, 0, 0}));
+  for (const SpokeCone& cap : caps_for(112)) EXPECT_NEAR(cap.angle, 82.3 * std::numbers::pi / 180, 0.01);
 }
 
 }  // namespace
