@@ -82,8 +82,9 @@ void print_exposed(const SmoothBoundary& solid, const std::vector<MedialSphere>&
     if (is_other) of_others.add_ball(spokes[i].count);
     for (std::size_t side = 0; side < spokes[i].count; ++side) {
       const Point& spoke = spokes[i].spokes[side];
-      const SmoothPoint truth = solid.nearest(balls[i].centre + balls[i].radius * spoke);
-      if (!solid.is_known(truth.position)) continue;
+      const Point at = balls[i].centre + balls[i].radius * spoke;
+      const SmoothPoint truth = solid.nearest(at);
+      if (!solid.is_known(at) || !solid.is_known(truth.position)) continue;
       const double angle = degrees_between(spoke, truth.normal), reach = kDegrees * spokes[i].reaches[side];
       of_all.add(angle, reach);
       if (!is_other) continue;
