@@ -44,8 +44,7 @@ class BallTable {
       if (count == 0 && i < kLevel) {
         return line_error(name_, number,
                           "the first line must name the columns x, y, z and radius, in any order (a file of balls is "
-                          "such a table, a medial "
-                          "PLY or a body file)");
+                          "such a table, a medial PLY, or an .npz or .json that this program wrote)");
       }
     }
     if (std::ranges::find(words, "link") != words.end()) {

@@ -46,8 +46,7 @@ TEST(ReadBalls, RefusesWhatIsNoTableOfBallsAndNamesTheLine) {
   EXPECT_EQ(error_of("x,y,z,radius\n"), "b.csv: there is no ball");
   EXPECT_EQ(error_of("x,y,z\n1,2,3\n"),
             "b.csv:1: the first line must name the columns x, y, z and radius, in any order (a file of balls is such a "
-            "table, a "
-            "medial PLY or a body file)");
+            "table, a medial PLY, or an .npz or .json that this program wrote)");
   EXPECT_EQ(error_of("link,x,y,z,radius\narm,1,2,3,4\n"),
             "b.csv:1: the balls are those of the links of a robot, which are several solids");
   EXPECT_EQ(error_of("x,x,y,z,radius\n1,1,2,3,4\n"), "b.csv:1: two columns are named x");

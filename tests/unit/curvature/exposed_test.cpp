@@ -20,10 +20,10 @@ using test::BallSheet;
 
 double angle_to(const Point& a, const Point& b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
 
-std::vector<ExposedSpokes> exposed_spokes_of_all(const std::vector<Ball>& balls, double spacing) {
+std::vector<ExposedSpokes> exposed_spokes_of_all(const std::vector<Ball>& balls, double spacing, unsigned threads = 1) {
   std::vector<std::uint32_t> numbers(balls.size());
   for (std::uint32_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
-  return exposed_spokes(SheetLinks(balls, spacing, 1), numbers, 1, {});
+  return exposed_spokes(SheetLinks(balls, spacing, 1), numbers, threads, {});
 }
 
 /// The balls of a prism along y over an equilateral triangle with the inradius 1: three sheets from its axis to its
@@ -173,6 +173,18 @@ TEST(ExposedRegions, TheTwoGreatestNeedNotHoldContacts) {
   }
   EXPECT_GT(with_three, 0u);
   EXPECT_GT(misled, 0u);
+}
+
+TEST(ExposedRegions, SpokesDoNotDependOnThreads) {
+  TrianglePrism prism;
+  prism.move(0.0025);
+  const auto one = exposed_spokes_of_all(prism.balls, 0.05, 1), three = exposed_spokes_of_all(prism.balls, 0.05, 3);
+  ASSERT_EQ(one.size(), three.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].count, three[i].count) << i;
+    EXPECT_EQ(one[i].spokes, three[i].spokes) << i;
+    EXPECT_EQ(one[i].reaches, three[i].reaches) << i;
+  }
 }
 
 TEST(ExposedRegions, ABallWithOneNeighbourHasNone) {
