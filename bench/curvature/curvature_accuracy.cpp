@@ -106,7 +106,7 @@ int main(int argc, char** argv) {
   Settings settings;
   CLI::App app("Curvatures from medial balls against formulas");
   app.add_option("--solids", settings.solids,
-                 "triaxial, oblate, pipe, plate, flat torus, tight torus, slivers, lantern, capsule, disc");
+                 "triaxial, oblate, pipe, plate, flat torus, tight torus, slivers, lantern, prism, capsule, disc");
   app.add_option("--triangles", settings.triangles, "about, by solid");
   app.add_option("--resolution", settings.resolution, "voxels along the longest side");
   app.add_option("--object-angle", settings.object_angle, "of the balls that are found");

@@ -29,9 +29,14 @@ class SpokeErrors {
     if (angle <= reach) ++below_;
   }
   void print(const std::string& solid, const std::string& which) {
-    fmt::print("| {} | {} | {} | {:.1f} % | {:.1f} % | {:.2f} | {:.2f} | {:.1f} | {:.1f} % ({:.1f}) |\n", solid, which,
-               balls_, share(with_two_, balls_), share(with_one_, balls_), angles_.mean(), angles_.quantile(0.95),
-               angles_.quantile(1), share(below_, angles_.count()), reaches_.quantile(0.5));
+    fmt::print("| {} | {} | {} | {:.1f} % | {:.1f} % | ", solid, which, balls_, share(with_two_, balls_),
+               share(with_one_, balls_));
+    if (angles_.count() == 0) {
+      fmt::print("– | – | – | – |\n");
+    } else {
+      fmt::print("{:.2f} | {:.2f} | {:.1f} | {:.1f} % ({:.1f}) |\n", angles_.mean(), angles_.quantile(0.95),
+                 angles_.quantile(1), share(below_, angles_.count()), reaches_.quantile(0.5));
+    }
     std::fflush(stdout);
   }
 
@@ -61,7 +66,7 @@ std::vector<Ball> every_ball(const std::vector<MedialSphere>& spheres, std::size
 void print_head_of_exposed() {
   fmt::print(
       "| solid | balls | number | with two spokes | with one | mean, degrees | 95th percentile | greatest | below the "
-      "bound (its median, degrees) |\n|---|---|---|---|---|---|---|---|---|\n");
+      "estimate (its median, degrees) |\n|---|---|---|---|---|---|---|---|---|\n");
 }
 
 void print_exposed(const SmoothBoundary& solid, const std::vector<MedialSphere>& spheres, const Settings& settings) {
@@ -82,8 +87,9 @@ void print_exposed(const SmoothBoundary& solid, const std::vector<MedialSphere>&
     if (is_other) of_others.add_ball(spokes[i].count);
     for (std::size_t side = 0; side < spokes[i].count; ++side) {
       const Point& spoke = spokes[i].spokes[side];
-      const SmoothPoint truth = solid.nearest(balls[i].centre + balls[i].radius * spoke);
-      if (!solid.is_known(truth.position)) continue;
+      const Point at = balls[i].centre + balls[i].radius * spoke;
+      const SmoothPoint truth = solid.nearest(at);
+      if (!solid.is_known(at) || !solid.is_known(truth.position)) continue;
       const double angle = degrees_between(spoke, truth.normal), reach = kDegrees * spokes[i].reaches[side];
       of_all.add(angle, reach);
       if (!is_other) continue;

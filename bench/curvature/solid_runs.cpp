@@ -75,8 +75,9 @@ std::vector<MeasuredTip> tips_of(const SmoothBoundary& solid, const std::vector<
       const TipCurvature& tip = curvature.balls[i].tips[side];
       const Point given = point_of(side == 0 ? spheres[i].spoke_a : spheres[i].spoke_b);
       const Point& normal = is_known(tip.state) ? tip.normal : given;
-      const SmoothPoint truth = solid.nearest(spheres[i].centre + spheres[i].radius * normal);
-      if (solid.is_known(truth.position)) out.push_back({truth, tip});
+      const Point at = spheres[i].centre + spheres[i].radius * normal;
+      const SmoothPoint truth = solid.nearest(at);
+      if (solid.is_known(at) && solid.is_known(truth.position)) out.push_back({truth, tip});
     }
   }
   return out;

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <bit>
-#include <cmath>
 #include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "ball_files/ball_faults.h"
 #include "base/host_memory.h"
 #include "input/text_scanner.h"
 #include "output/numpy_files/npz_reader.h"
@@ -16,28 +18,6 @@ namespace medial_vk {
 namespace {
 
 using Json = nlohmann::json;
-
-/// Why a ball cannot be used; empty if it can. Spokes are floats.
-std::string fault_of(const Ball& ball, const SpokePair* spokes) {
-  for (const double x : ball.centre) {
-    if (!std::isfinite(x)) return "the centre is not finite";
-  }
-  if (!std::isfinite(ball.radius) || !(ball.radius > 0))
-    return fmt::format("the radius {} is not positive", ball.radius);
-  if (spokes == nullptr) return {};
-  for (const Point& p : {spokes->a, spokes->b}) {
-    if (!(std::fabs(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] - 1) < 1e-3)) return "a spoke is no unit vector";
-  }
-  return {};
-}
-
-Status check_all(const BallsWithSpokes& read, const std::string& name) {
-  for (std::size_t i = 0; i < read.balls.size(); ++i) {
-    const std::string fault = fault_of(read.balls[i], read.spokes.empty() ? nullptr : &read.spokes[i]);
-    if (!fault.empty()) return file_error(name, fmt::format("ball {}: {}", i, fault));
-  }
-  return {};
-}
 
 /// The numbers of an array, if it has this type, and `columns` of them for each of any number of balls.
 template <class T>
@@ -78,22 +58,43 @@ bool read_numbers(const Json& object, const char* key, std::span<double> out) {
   return true;
 }
 
+struct BallOfFile {
+  Ball ball;
+  SpokePair spokes;
+  bool has_spokes = false;
+};
+
+Result<BallOfFile> ball_of_object(const Json& object, const std::string& place) {
+  BallOfFile out;
+  if (!object.is_object() || !read_numbers(object, "centre", out.ball.centre) ||
+      !read_numbers(object, "radius", {&out.ball.radius, 1})) {
+    return file_error(place, "there must be a centre of three numbers and a radius");
+  }
+  if (!object.contains("spoke_a") && !object.contains("spoke_b")) return out;
+  if (!read_numbers(object, "spoke_a", out.spokes.a) || !read_numbers(object, "spoke_b", out.spokes.b)) {
+    return file_error(place, "there must be both spoke_a and spoke_b, of three numbers each, or neither");
+  }
+  out.spokes = {as_written(out.spokes.a), as_written(out.spokes.b)};
+  out.has_spokes = true;
+  return out;
+}
+
 Result<BallsWithSpokes> balls_of_list(const Json& list, const std::string& name) {
   BallsWithSpokes out;
   out.balls.reserve(list.size());
+  out.spokes.reserve(list.size());
   for (const Json& object : list) {
-    Ball ball;
-    SpokePair spokes;
-    const std::string place = fmt::format("ball {}: ", out.balls.size());
-    if (!object.is_object() || !read_numbers(object, "centre", ball.centre) ||
-        !read_numbers(object, "radius", {&ball.radius, 1})) {
-      return file_error(name, place + "there must be a centre of three numbers and a radius");
+    const std::string place = fmt::format("{}: ball {}", name, out.balls.size());
+    const Result<BallOfFile> read = ball_of_object(object, place);
+    if (!read) return read.error();
+    const BallOfFile& ball = read.value();
+    if (!out.balls.empty() && ball.has_spokes == out.spokes.empty()) {
+      return file_error(place, ball.has_spokes ? "it has spokes, but the balls before have none"
+                                               : "it has no spokes, but the balls before have them");
     }
-    out.balls.push_back(ball);
-    if (!read_numbers(object, "spoke_a", spokes.a) || !read_numbers(object, "spoke_b", spokes.b)) continue;
-    out.spokes.push_back(spokes);
+    out.balls.push_back(ball.ball);
+    if (ball.has_spokes) out.spokes.push_back(ball.spokes);
   }
-  if (out.spokes.size() != out.balls.size()) out.spokes.clear();
   if (Status status = check_all(out, name); !status) return status.error();
   return out;
 }
@@ -119,7 +120,10 @@ Result<BallsWithSpokes> balls_of_arrays(std::string_view bytes, const std::strin
     BallsWithSpokes out;
     out.balls.reserve(count);
     for (std::size_t i = 0; i < count; ++i) out.balls.push_back({triple_at(centres.value(), i), radii.value()[i]});
-    if (arrays.contains("spoke_a") && arrays.contains("spoke_b")) {
+    if (arrays.contains("spoke_a") != arrays.contains("spoke_b")) {
+      return file_error(name, "there must be both arrays spoke_a and spoke_b, or neither");
+    }
+    if (arrays.contains("spoke_a")) {
       const auto a = numbers_of<float>(arrays.at("spoke_a"), "<f4", 3, "spoke_a");
       if (!a) return file_error(name, a.error().message);
       const auto b = numbers_of<float>(arrays.at("spoke_b"), "<f4", 3, "spoke_b");

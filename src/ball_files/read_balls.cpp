@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <utility>
 
 #include "ball_files/ball_arrays.h"
+#include "ball_files/ball_faults.h"
 #include "base/quoted.h"
 #include "body_files/body_file.h"
 #include "common/file_extension.h"
@@ -31,9 +31,6 @@ struct BallOfLevel {
   SpokePair spokes;
 };
 
-/// Of words with seven digits or more.
-bool is_unit(const Point& p) { return std::fabs(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] - 1) < 1e-3; }
-
 class BallTable {
  public:
   explicit BallTable(std::string name) : name_(std::move(name)) {}
@@ -47,8 +44,7 @@ class BallTable {
       if (count == 0 && i < kLevel) {
         return line_error(name_, number,
                           "the first line must name the columns x, y, z and radius, in any order (a file of balls is "
-                          "such a table, a medial "
-                          "PLY or a body file)");
+                          "such a table, a medial PLY, or an .npz or .json that this program wrote)");
       }
     }
     if (std::ranges::find(words, "link") != words.end()) {
@@ -76,13 +72,12 @@ class BallTable {
         return line_error(name_, number, fmt::format("{}: {} {}", kColumns[i], quoted(word), why));
       }
     }
-    const double radius = values[3];
-    if (!(radius > 0)) return line_error(name_, number, fmt::format("the radius {} is not positive", radius));
-    const SpokePair spokes = {{values[5], values[6], values[7]}, {values[8], values[9], values[10]}};
-    if (has_spokes_ && (!is_unit(spokes.a) || !is_unit(spokes.b))) {
-      return line_error(name_, number, "a spoke is no unit vector");
-    }
-    return BallOfLevel{{{values[0], values[1], values[2]}, radius}, values[kLevel], spokes};
+    const Ball ball = {{values[0], values[1], values[2]}, values[3]};
+    const SpokePair spokes = {as_written({values[5], values[6], values[7]}),
+                              as_written({values[8], values[9], values[10]})};
+    const std::string fault = fault_of_ball(ball, has_spokes_ ? &spokes : nullptr);
+    if (!fault.empty()) return line_error(name_, number, fault);
+    return BallOfLevel{ball, values[kLevel], spokes};
   }
 
  private:
@@ -105,6 +100,7 @@ Result<BallsWithSpokes> balls_of_medial_ply(const std::string& path) {
     out.balls.push_back({sphere.centre, sphere.radius});
     out.spokes.push_back({point(sphere.spoke_a), point(sphere.spoke_b)});
   }
+  if (Status status = check_all(out, path); !status) return status.error();
   return out;
 }
 

@@ -13,7 +13,8 @@ namespace medial_vk {
 
 /// The balls of a table (CSV), whose first line names the columns, in any order: x, y, z and radius; of a table with
 /// several sets, where a column `level` numbers them, those of the last set. Other columns are left out, but `link`, of
-/// a robot, is refused. Numbers are finite and radii positive. Error: kInvalidMesh, with `name` and the line at fault.
+/// a robot, is refused. Numbers are at most 1e18 and radii positive. Error: kInvalidMesh, with `name` and the line at
+/// fault.
 Result<std::vector<Ball>> parse_balls(std::string_view text, const std::string& name);
 
 /// Balls, and the spokes of each if the file has them.
@@ -23,7 +24,7 @@ struct BallsWithSpokes {
 };
 
 /// The same, with spokes where the table has all of the columns spoke_a_x, spoke_a_y, spoke_a_z, spoke_b_x, spoke_b_y
-/// and spoke_b_z: unit vectors.
+/// and spoke_b_z: unit vectors, rounded to floats, as the program writes them.
 Result<BallsWithSpokes> parse_balls_with_spokes(std::string_view text, const std::string& name);
 
 /// Which balls of a body file.

@@ -192,8 +192,8 @@ TEST_F(FollowCovers, AFileThatDoesNotCoverIsRefused) {
 TEST_F(FollowCovers, AFileWithNumbersOutOfRangeIsRefused) {
   test::write_file(path("far.csv"), "x,y,z,radius\n0.5,0.5,0.5,4\n1e19,0,0,1\n");
   const ToolResult far = follow({"box_0.obj", "box_1.obj", "--balls", "far.csv"});
-  EXPECT_EQ(far.exit_code, 2);
-  EXPECT_THAT(far.err, HasSubstr("--balls far.csv: ball 1 of the file is not finite"));
+  EXPECT_EQ(far.exit_code, 3);
+  EXPECT_THAT(far.err, HasSubstr("far.csv:3: there is a number beyond 1e+18"));
 }
 
 TEST_F(FollowCovers, StepsAndDivisionsNeverMakeThemLarger) {

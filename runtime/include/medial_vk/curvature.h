@@ -86,9 +86,10 @@ struct TipCurvature {
   double error = kUnknown;
   /// The standard deviation of the curvatures by the residuals of the fit alone; of kFits.
   double spread = kUnknown;
-  double normal_error = kUnknown;  ///< An estimate of the error of the spoke, radians; of kFits. Without curvatures in
-                                   ///< the state kExposed: a bound, if no ball reaches out of the solid.
-  double window = kUnknown;        ///< The radius of the window on the boundary, in the units of the balls.
+  /// An estimate of the error of the spoke, radians; of kFits. Without curvatures in the state kExposed: the greatest
+  /// angle in the region: a bound if the region holds a contact, as not every one of a ball's two greatest does.
+  double normal_error = kUnknown;
+  double window = kUnknown;  ///< The radius of the window on the boundary, in the units of the balls.
 };
 
 struct BallCurvature {
@@ -109,13 +110,14 @@ struct SpokePair {
 /// Measures the boundary at both tips of each ball. Method kFits uses centres and radii alone; `spokes`, one pair per
 /// ball or none, then only decide which tip is the first. Balls in another order can change results within their
 /// errors: of crowded balls, those of lower numbers stay in wide windows. `progress` is called on the calling thread,
-/// with the stages "sheets", "tips" and "windows"; kDifferences does not call it. `stop` ends the fits of sheets and
-/// tips and the choice of windows, and the differences, within some milliseconds; the estimate of the spacing, the
-/// search for neighbours, the thinning of balls and tips and the smoothing of spokes run to their ends first. Time of
-/// kFits: about a millisecond of one core, and memory: 3 kB, for each of balls spread evenly; more where many lie
-/// within one spacing. Does not throw. Errors: kUsage (a number that is not finite, a coordinate, radius, spacing or
-/// step beyond 1e18, a radius that is not positive, a spoke that is not of unit length, an option out of range, numbers
-/// of balls and spokes that differ, no spokes for kDifferences, 2^31 balls or more), kInterrupted, kOutOfMemory.
+/// with the stages "sheets", "regions" (exposed ones), "tips" and "windows"; kDifferences does not call it. `stop` ends
+/// the fits of sheets and tips, the search for exposed regions and the choice of windows, and the differences, within
+/// some milliseconds; the estimate of the spacing, the search for neighbours, the thinning of balls and tips and the
+/// smoothing of spokes run to their ends first. Time of kFits: about a millisecond of one core, and memory: 3 kB, for
+/// each of balls spread evenly; more where many lie within one spacing. Does not throw. Errors: kUsage (a number that
+/// is not finite, a coordinate, radius, spacing or step beyond 1e18, a radius that is not positive, a spoke that is not
+/// of unit length, an option out of range, numbers of balls and spokes that differ, no spokes for kDifferences, 2^31
+/// balls or more), kInterrupted, kOutOfMemory.
 Result<BoundaryCurvature> measure_curvature(std::span<const Ball> balls, const CurvatureOptions& options = {},
                                             std::span<const SpokePair> spokes = {}, const StageProgress& progress = {},
                                             const std::stop_token& stop = {});

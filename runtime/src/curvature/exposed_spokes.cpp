@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "ball_unions/cells/ball_tree.h"
 #include "ball_unions/cells/cell_builder.h"
 #include "ball_unions/unions/unit_balls.h"
 #include "base/parallel.h"
 #include "base/point_ops.h"
+#include "threads/worker_pool.h"
 
 namespace medial_vk {
 namespace {
@@ -16,6 +18,8 @@ namespace {
 constexpr double kLeastObjectAngle = 0.25;
 // In spacings: balls nearer than this do not count.
 constexpr std::array<double, 3> kNeglected = {0, 2, 4};
+// Balls in a row that one thread takes.
+constexpr std::size_t kInARow = 256;
 
 double angle_of_regions(const ExposedRegion& a, const ExposedRegion& b) {
   return std::atan2(length(cross(a.direction, b.direction)), dot(a.direction, b.direction));
@@ -31,12 +35,19 @@ ExposedRegion joined(const ExposedRegion& a, const ExposedRegion& b) {
   return out;
 }
 
-/// For one thread.
+/// For one thread. It takes memory and time for all balls once, and then for each search what is near.
 class SpokeSearch {
  public:
   SpokeSearch(const SheetLinks& links, std::span<const Ball> scaled, const BallTree& tree)
       : links_(links), scaled_(scaled), counted_(tree), builder_(scaled, tree, &counted_) {}
 
+  /// Of a row of balls; the result does not depend on earlier rows.
+  void find_all(std::span<const std::uint32_t> numbers, std::span<ExposedSpokes> out, const std::stop_token& stop) {
+    builder_.forget();
+    for (std::size_t i = 0; i < numbers.size() && !stop.stop_requested(); ++i) out[i] = find(numbers[i]);
+  }
+
+ private:
   ExposedSpokes find(std::uint32_t ball) {
     ExposedSpokes best;
     const double radius = scaled_[ball].radius;
@@ -51,7 +62,6 @@ class SpokeSearch {
     return best;
   }
 
- private:
   void count_near(std::uint32_t ball, double reach, bool counts) {
     links_.grid().visit_within(links_.centres()[ball], reach,
                                [&](std::uint32_t other, double) { counted_.set(other, counts); });
@@ -102,9 +112,14 @@ std::vector<ExposedSpokes> exposed_spokes(const SheetLinks& links, std::span<con
   if (numbers.empty()) return out;
   const std::vector<Ball> scaled = scaled_balls(links.balls(), scale_of(links.balls()));
   const BallTree tree(scaled, threads);
-  parallel_blocks(numbers.size(), 256, threads, [&](std::size_t begin, std::size_t end) {
-    SpokeSearch search(links, scaled, tree);
-    for (std::size_t i = begin; i < end && !stop.stop_requested(); ++i) out[i] = search.find(numbers[i]);
+  const std::size_t rows = (numbers.size() + kInARow - 1) / kInARow;
+  WorkerPool pool(static_cast<unsigned>(std::min<std::size_t>(thread_count(threads), rows)));
+  std::vector<std::unique_ptr<SpokeSearch>> searches(pool.threads());
+  pool.run(rows, 1, [&](std::size_t row, unsigned worker) {
+    std::unique_ptr<SpokeSearch>& search = searches[worker];
+    if (search == nullptr) search = std::make_unique<SpokeSearch>(links, scaled, tree);
+    const std::size_t begin = row * kInARow, count = std::min(kInARow, numbers.size() - begin);
+    search->find_all(numbers.subspan(begin, count), std::span(out).subspan(begin, count), stop);
   });
   return out;
 }

@@ -19,8 +19,8 @@ struct ExposedSpokes {
   std::array<double, 2> reaches = {};  ///< No point of the region is farther away from its spoke, radians.
 };
 
-/// Regions that one direction may belong to count as one. Of those that remain, the two of the greatest areas; or the
-/// only one, if it is too small for two contacts.
+/// Regions that one direction may belong to count as one. Of those that remain, the two of the greatest areas, which
+/// need not be the ones that hold the contacts; or the only one, if it is too small for two contacts.
 ExposedSpokes spokes_of(std::span<const ExposedRegion> regions);
 
 /// Of the balls with these numbers, among all balls. Where there are not two, those nearby do not count, within two

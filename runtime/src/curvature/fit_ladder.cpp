@@ -77,6 +77,7 @@ FitLadder::FitLadder(const SheetLinks& links, unsigned threads, const StageProgr
   report("sheets", 0);
   Uses used;
   fit_sheets(links, threads, used);
+  report("regions", 0);
   add_exposed(links, threads, used);
   for (std::size_t k = 0; k < kSteps; ++k) compact(used[k], steps_[k]);
   for (std::size_t i = 0; i < kSteps; ++i) {

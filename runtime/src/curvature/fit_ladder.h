@@ -46,7 +46,8 @@ class FitLadder {
   };
   const Choice& choice(std::size_t tip) const { return choices_[tip]; }
 
-  /// Of a ball that no width gives spokes along its sheet, and that has two exposed regions; otherwise null.
+  /// Of a ball that no width gives spokes along its sheet, and that exposed regions give one or two spokes; otherwise
+  /// null.
   const ExposedSpokes* exposed(std::uint32_t ball) const {
     return exposed_of_[ball] == kNone ? nullptr : &exposed_[exposed_of_[ball]];
   }

@@ -42,9 +42,9 @@ The balls:
       --points          all medial points instead, at --resolution N, which
                         must then be given
       --balls FILE      balls in a file: a table (CSV) with the columns x, y, z
-                        and radius, a medial PLY, or a body file (.npz); "-": a
-                        table on standard input. They must be inside, or cover
-                        the mesh at rest
+                        and radius, a medial PLY, or .npz or .json that this
+                        program wrote; "-": a table on standard input. They must
+                        be inside, or cover the mesh at rest
       --resolution N    voxels along the longest side, for balls to choose from
                         (default: by the number of balls), or with --points
       --backend NAME    vulkan or cpu (the reference, slow) finds them

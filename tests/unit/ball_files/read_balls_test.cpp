@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "ball_files/ball_arrays.h"
+#include "output/numpy_files/npz_writer.h"
+
 namespace medial_vk::test {
 namespace {
 
@@ -43,8 +46,7 @@ TEST(ReadBalls, RefusesWhatIsNoTableOfBallsAndNamesTheLine) {
   EXPECT_EQ(error_of("x,y,z,radius\n"), "b.csv: there is no ball");
   EXPECT_EQ(error_of("x,y,z\n1,2,3\n"),
             "b.csv:1: the first line must name the columns x, y, z and radius, in any order (a file of balls is such a "
-            "table, a "
-            "medial PLY or a body file)");
+            "table, a medial PLY, or an .npz or .json that this program wrote)");
   EXPECT_EQ(error_of("link,x,y,z,radius\narm,1,2,3,4\n"),
             "b.csv:1: the balls are those of the links of a robot, which are several solids");
   EXPECT_EQ(error_of("x,x,y,z,radius\n1,1,2,3,4\n"), "b.csv:1: two columns are named x");
@@ -53,6 +55,78 @@ TEST(ReadBalls, RefusesWhatIsNoTableOfBallsAndNamesTheLine) {
   EXPECT_EQ(error_of("x,y,z,radius\n1,2,3,-1\n"), "b.csv:2: the radius -1 is not positive");
   EXPECT_TRUE(error_of("x,y,z,radius\n1,2,nan,1\n").starts_with("b.csv:2: z: ")) << "not finite";
   EXPECT_TRUE(error_of("x,y,z,radius\n1,2,1e999,1\n").starts_with("b.csv:2: z: ")) << "not finite";
+  EXPECT_EQ(error_of("x,y,z,radius\n0,0,0,1\n1,-2e18,3,1\n"), "b.csv:3: there is a number beyond 1e+18");
+  EXPECT_EQ(error_of("x,y,z,radius\n0,0,0,2e18\n"), "b.csv:2: there is a number beyond 1e+18");
+  EXPECT_EQ(balls_of("x,y,z,radius\n1e18,-1e18,0,1e18\n").size(), 1u);
+}
+
+const std::string kBall = R"("centre":[0,0,0],"radius":1)", kSpokeA = R"("spoke_a":[1,0,0])",
+                  kSpokeB = R"("spoke_b":[0,1,0])";
+
+/// The message about a list of objects with these members.
+std::string error_of_list(const std::vector<std::string>& objects) {
+  std::string list;
+  for (const std::string& members : objects) list += (list.empty() ? "{" : ",{") + members + "}";
+  const Result<BallsWithSpokes> read = balls_of_json("{\"points\":[" + list + "]}", "b.json");
+  EXPECT_FALSE(read);
+  if (read) return {};
+  EXPECT_EQ(read.error().code, ErrorCode::kInvalidMesh);
+  return read.error().message;
+}
+
+TEST(ReadBalls, OfAListAllHaveBothSpokesOrNone) {
+  const std::string pair = kBall + "," + kSpokeA + "," + kSpokeB;
+  const std::string both = "there must be both spoke_a and spoke_b, of three numbers each, or neither";
+  EXPECT_EQ(error_of_list({pair, kBall + "," + kSpokeA}), "b.json: ball 1: " + both);
+  EXPECT_EQ(error_of_list({kBall + "," + kSpokeB}), "b.json: ball 0: " + both);
+  EXPECT_EQ(error_of_list({kBall + "," + kSpokeB + R"(,"spoke_a":[1,0])"}), "b.json: ball 0: " + both);
+  EXPECT_EQ(error_of_list({kBall + "," + kSpokeB + R"(,"spoke_a":[1,0,null])"}), "b.json: ball 0: " + both);
+  EXPECT_EQ(error_of_list({kBall + R"(,"spoke_a":null,"spoke_b":null)"}), "b.json: ball 0: " + both);
+  EXPECT_EQ(error_of_list({pair, pair, kBall}), "b.json: ball 2: it has no spokes, but the balls before have them");
+  EXPECT_EQ(error_of_list({kBall, kBall, pair}), "b.json: ball 2: it has spokes, but the balls before have none");
+  EXPECT_EQ(error_of_list({kBall + R"(,"spoke_a":[1e200,0,0],)" + kSpokeB}),
+            "b.json: ball 0: a spoke is no unit vector");
+  EXPECT_EQ(error_of_list({kBall, R"("centre":[0,-2e18,0],"radius":1)"}),
+            "b.json: ball 1: there is a number beyond 1e+18");
+}
+
+TEST(ReadBalls, ArraysHaveBothSpokesOrNone) {
+  const auto bytes_of = [](std::vector<double> centre, bool has_a, bool has_b) {
+    const std::vector<double> radius = {1};
+    const std::vector<float> spoke = {0, 0, 1};
+    NpzWriter arrays;
+    arrays.numbers<double>("centre", {1, 3}, centre);
+    arrays.numbers<double>("radius", {1}, radius);
+    if (has_a) arrays.numbers<float>("spoke_a", {1, 3}, spoke);
+    if (has_b) arrays.numbers<float>("spoke_b", {1, 3}, spoke);
+    return arrays.finish().value();
+  };
+  EXPECT_EQ(balls_of_arrays(bytes_of({1, 2, 3}, true, true), "b.npz").value().spokes.size(), 1u);
+  EXPECT_EQ(balls_of_arrays(bytes_of({1, 2, 3}, false, false), "b.npz").value().spokes.size(), 0u);
+  for (const bool has_a : {true, false}) {
+    const Result<BallsWithSpokes> read = balls_of_arrays(bytes_of({1, 2, 3}, has_a, !has_a), "b.npz");
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().code, ErrorCode::kInvalidMesh);
+    EXPECT_EQ(read.error().message, "b.npz: there must be both arrays spoke_a and spoke_b, or neither");
+  }
+  const Result<BallsWithSpokes> far = balls_of_arrays(bytes_of({1, 2, 3e18}, false, false), "b.npz");
+  ASSERT_FALSE(far);
+  EXPECT_EQ(far.error().message, "b.npz: ball 0: there is a number beyond 1e+18");
+}
+
+// Shortest texts of floats are not those of doubles: 0.6f is 0.60000002384185791015625.
+TEST(ReadBalls, SpokesInTextAreFloats) {
+  const std::string table =
+      "x,y,z,radius,spoke_a_x,spoke_a_y,spoke_a_z,spoke_b_x,spoke_b_y,spoke_b_z\n0,0,0,0.3,0.6,0.8,0,0,-0.6,-0.8\n";
+  const std::string list =
+      R"({"points":[{"centre":[0,0,0],"radius":0.3,"spoke_a":[0.6,0.8,0],"spoke_b":[0,-0.6,-0.8]}]})";
+  for (const Result<BallsWithSpokes>& read : {parse_balls_with_spokes(table, "b.csv"), balls_of_json(list, "b.json")}) {
+    ASSERT_TRUE(read);
+    ASSERT_EQ(read.value().spokes.size(), 1u);
+    EXPECT_EQ(read.value().spokes[0].a, (Point{0.6f, 0.8f, 0}));
+    EXPECT_EQ(read.value().spokes[0].b, (Point{0, -0.6f, -0.8f}));
+    EXPECT_EQ(read.value().balls[0].radius, 0.3);
+  }
 }
 
 }  // namespace

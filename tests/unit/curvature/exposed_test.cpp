@@ -1,6 +1,7 @@
 // Spokes from the parts of balls that no other ball covers.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -19,10 +20,10 @@ using test::BallSheet;
 
 double angle_to(const Point& a, const Point& b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
 
-std::vector<ExposedSpokes> exposed_spokes_of_all(const std::vector<Ball>& balls, double spacing) {
+std::vector<ExposedSpokes> exposed_spokes_of_all(const std::vector<Ball>& balls, double spacing, unsigned threads = 1) {
   std::vector<std::uint32_t> numbers(balls.size());
   for (std::uint32_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
-  return exposed_spokes(SheetLinks(balls, spacing, 1), numbers, 1, {});
+  return exposed_spokes(SheetLinks(balls, spacing, 1), numbers, threads, {});
 }
 
 /// The balls of a prism along y over an equilateral triangle with the inradius 1: three sheets from its axis to its
@@ -32,11 +33,11 @@ struct TrianglePrism {
   std::vector<std::uint8_t> is_on_axis;
   std::array<Point, 3> normals;
 
-  TrianglePrism() {
+  explicit TrianglePrism(double spacing = 0.05) {
     for (std::size_t k = 0; k < 3; ++k) {
       const double angle = 2 * std::numbers::pi * static_cast<double>(k) / 3;
       normals[k] = {-std::cos(angle), 0, -std::sin(angle)};
-      test::scatter(0.6, 1, 0.05, [&](double u, double v) {
+      test::scatter(0.6, 1, spacing, [&](double u, double v) {
         const double out = u + 0.6;
         balls.push_back({{out * std::cos(angle), v, out * std::sin(angle)}, 1 - out / 2});
         is_on_axis.push_back(out < 0.02 ? 1 : 0);
@@ -48,7 +49,30 @@ struct TrianglePrism {
     for (const Point& normal : normals) least = std::min(least, angle_to(normal, spoke));
     return least;
   }
+  /// Each centre by up to `most` along each axis; each ball remains as large as it can be inside.
+  void move(double most) {
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<> by(-most, most);
+    for (Ball& ball : balls) {
+      for (double& x : ball.centre) x += by(random);
+      ball.radius = 1 - dot(ball.centre, normals[0]);
+      for (const Point& normal : normals) ball.radius = std::min(ball.radius, 1 - dot(ball.centre, normal));
+    }
+  }
+  /// The normals of the sides that a ball touches, up to rounding.
+  std::vector<Point> contacts(const Ball& ball) const {
+    std::vector<Point> out;
+    for (const Point& normal : normals) {
+      if (1 - dot(ball.centre, normal) <= ball.radius * (1 + 1e-14)) out.push_back(normal);
+    }
+    return out;
+  }
 };
+
+/// Whether it is in the cone around the region, up to rounding.
+bool may_hold(const ExposedRegion& region, const Point& contact) {
+  return angle_to(contact, region.direction) <= region.reach + 1e-7;
+}
 
 TEST(ExposedRegions, HaveTheAreasAndVectorsOfTheUnion) {
   BallSheet sheet = test::spheroid(2, 1, 0.2);
@@ -98,6 +122,69 @@ TEST(ExposedRegions, HoldTheContactsOfBallsInASolid) {
     }
   }
   EXPECT_GT(pairs, 9 * sheet.balls.size() / 10);
+}
+
+// A ball beside its sheet touches one side alone. Its contact is in a region whichever of the other balls count.
+TEST(ExposedRegions, HoldTheContactsOfBallsBesideTheirSheets) {
+  constexpr double kSpacing = 0.05;
+  TrianglePrism prism(kSpacing);
+  prism.move(0.05 * kSpacing);
+  const std::vector<Ball> scaled = scaled_balls(prism.balls, scale_of(prism.balls));
+  const BallTree tree(scaled, 1);
+  BallMask half(tree);
+  std::mt19937_64 random(2);
+  for (std::uint32_t i = 0; i < scaled.size(); ++i) half.set(i, random() % 2 == 0);
+  CellBuilder among_all(scaled, tree), among_half(scaled, tree, &half);
+  RegionFinder finder;
+  std::size_t held = 0;
+  for (std::uint32_t i = 0; i < scaled.size(); ++i) {
+    const std::vector<Point> contacts = prism.contacts(prism.balls[i]);
+    ASSERT_EQ(contacts.size(), 1u) << i;
+    for (CellBuilder* builder : {&among_all, &among_half}) {
+      const auto regions = finder.find(builder->build(i), scaled[i].radius);
+      if (regions.empty()) continue;  // so it is where no two caps cross
+      ++held;
+      EXPECT_TRUE(std::ranges::any_of(regions, [&](const ExposedRegion& r) { return may_hold(r, contacts[0]); })) << i;
+    }
+  }
+  EXPECT_GT(held, 19 * scaled.size() / 10);
+}
+
+// Beside the axis, where balls end: the third region is the one towards the end, and the greatest.
+TEST(ExposedRegions, TheTwoGreatestNeedNotHoldContacts) {
+  const TrianglePrism prism;
+  const std::vector<Ball> scaled = scaled_balls(prism.balls, scale_of(prism.balls));
+  const BallTree tree(scaled, 1);
+  CellBuilder builder(scaled, tree);
+  RegionFinder finder;
+  std::size_t with_three = 0, misled = 0;
+  for (std::uint32_t i = 0; i < scaled.size(); ++i) {
+    const auto found = finder.find(builder.build(i), scaled[i].radius);
+    std::vector<ExposedRegion> regions(found.begin(), found.end());
+    if (regions.size() != 3) continue;
+    ++with_three;
+    std::ranges::sort(regions, std::ranges::greater(), &ExposedRegion::area);
+    const std::vector<Point> contacts = prism.contacts(prism.balls[i]);
+    std::array<bool, 3> holds = {};
+    for (std::size_t k = 0; k < 3; ++k) {
+      holds[k] = std::ranges::any_of(contacts, [&](const Point& contact) { return may_hold(regions[k], contact); });
+    }
+    if (!(holds[0] && holds[1]) && holds[2]) ++misled;
+  }
+  EXPECT_GT(with_three, 0u);
+  EXPECT_GT(misled, 0u);
+}
+
+TEST(ExposedRegions, SpokesDoNotDependOnThreads) {
+  TrianglePrism prism;
+  prism.move(0.0025);
+  const auto one = exposed_spokes_of_all(prism.balls, 0.05, 1), three = exposed_spokes_of_all(prism.balls, 0.05, 3);
+  ASSERT_EQ(one.size(), three.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].count, three[i].count) << i;
+    EXPECT_EQ(one[i].spokes, three[i].spokes) << i;
+    EXPECT_EQ(one[i].reaches, three[i].reaches) << i;
+  }
 }
 
 TEST(ExposedRegions, ABallWithOneNeighbourHasNone) {

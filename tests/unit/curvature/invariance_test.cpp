@@ -195,7 +195,7 @@ TEST(CurvatureErrors, AStopEndsTheCall) {
   const auto result = measure_curvature(sheet.balls, {}, {}, progress, stop.get_token());
   ASSERT_FALSE(result.ok());
   EXPECT_EQ(result.error().code, ErrorCode::kInterrupted);
-  EXPECT_EQ(stages, (std::vector<std::string>{"sheets", "tips"}));
+  EXPECT_EQ(stages, (std::vector<std::string>{"sheets", "regions", "tips"}));
 }
 
 }  // namespace
