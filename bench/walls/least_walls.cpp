@@ -71,7 +71,7 @@ std::vector<NamedMesh> generated_solids() {
 
 /// Four digits of an end of an interval: no number above x for a step of -1, none below it for 1.
 std::string rounded_outward(double x, int step) {
-  const std::string nearest = fmt::format("{:.4g}", x);
+  std::string nearest = fmt::format("{:.4g}", x);
   const double read = std::strtod(nearest.c_str(), nullptr);
   if (step * read >= step * x) return nearest;
   return fmt::format("{:.4g}", read + step * std::pow(10, std::floor(std::log10(x)) - 3));
