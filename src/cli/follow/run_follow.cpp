@@ -200,8 +200,11 @@ class FollowRun {
     return {};
   }
 
-  /// The balls as they are now, and what is measured of them.
+  /// The balls as they are now, and what is measured of them. Neither measurements nor the reference can be stopped
+  /// half-way; nothing is lost if the process ends.
   Status add_frame(const std::string& name, double time, const std::vector<Point>& vertices, bool keeps_vertices) {
+    const EndAtOnce while_measured;
+    if (interrupted()) return stopped();
     FollowedFrame frame;
     frame.name = name;
     frame.short_name = options_.frames.empty() ? name : std::filesystem::path(name).stem().string();
@@ -216,9 +219,7 @@ class FollowRun {
     if (writes_table(options_)) {
       if (Status status = follower_->measure_distances(vertices, *mesh_, frame); !status) return status;
     }
-    if (options_.check) {
-      if (Status status = check(vertices, frame); !status) return status;
-    }
+    if (options_.check) check(vertices, frame);
     if (keeps_vertices && (!options_.html.empty() || !options_.picture.empty())) {
       for (const Point& p : vertices) {
         frame.vertices.push_back({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
@@ -228,16 +229,14 @@ class FollowRun {
     return {};
   }
 
-  /// By the reference, which cannot be stopped half-way; nothing is lost if the process ends.
-  Status check(const std::vector<Point>& vertices, const FollowedFrame& frame) {
-    const EndAtOnce while_checked;
-    if (interrupted()) return stopped();
+  /// By the reference.
+  void check(const std::vector<Point>& vertices, const FollowedFrame& frame) {
     std::vector<Ball> present;
     std::ranges::copy_if(frame.balls, std::back_inserter(present), [](const Ball& ball) { return ball.radius > 0; });
     const CheckReport report = follower_->check(moved(mesh_->prepared(), vertices), present);
     if (check_.lines.empty()) {
       check_.lines = report.lines;
-      return {};
+      return;
     }
     for (std::size_t i = 0; i < report.lines.size(); ++i) {
       CheckLine& line = check_.lines[i];
@@ -248,7 +247,6 @@ class FollowRun {
       line.failed += report.lines[i].failed;
       line.worst = std::max(line.worst, report.lines[i].worst);
     }
-    return {};
   }
 
   Status rig() {
