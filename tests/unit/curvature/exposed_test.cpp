@@ -150,31 +150,6 @@ TEST(ExposedRegions, HoldTheContactsOfBallsBesideTheirSheets) {
   EXPECT_GT(held, 19 * scaled.size() / 10);
 }
 
-// Beside the axis, where balls end: the third region is the one towards the end, and the greatest.
-TEST(ExposedRegions, TheTwoGreatestNeedNotHoldContacts) {
-  const TrianglePrism prism;
-  const std::vector<Ball> scaled = scaled_balls(prism.balls, scale_of(prism.balls));
-  const BallTree tree(scaled, 1);
-  CellBuilder builder(scaled, tree);
-  RegionFinder finder;
-  std::size_t with_three = 0, misled = 0;
-  for (std::uint32_t i = 0; i < scaled.size(); ++i) {
-    const auto found = finder.find(builder.build(i), scaled[i].radius);
-    std::vector<ExposedRegion> regions(found.begin(), found.end());
-    if (regions.size() != 3) continue;
-    ++with_three;
-    std::ranges::sort(regions, std::ranges::greater(), &ExposedRegion::area);
-    const std::vector<Point> contacts = prism.contacts(prism.balls[i]);
-    std::array<bool, 3> holds = {};
-    for (std::size_t k = 0; k < 3; ++k) {
-      holds[k] = std::ranges::any_of(contacts, [&](const Point& contact) { return may_hold(regions[k], contact); });
-    }
-    if (!(holds[0] && holds[1]) && holds[2]) ++misled;
-  }
-  EXPECT_GT(with_three, 0u);
-  EXPECT_GT(misled, 0u);
-}
-
 TEST(ExposedRegions, SpokesDoNotDependOnThreads) {
   TrianglePrism prism;
   prism.move(0.0025);
