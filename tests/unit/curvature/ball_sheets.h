@@ -26,7 +26,10 @@ inline void scatter(double u, double v, double spacing, const std::function<void
   std::mt19937_64 random(3);
   std::uniform_real_distribution<> share(0, 1);
   for (double x = -u; x < u; x += spacing) {
-    for (double y = -v; y < v; y += spacing) place(x + share(random) * spacing, y + share(random) * spacing);
+    for (double y = -v; y < v; y += spacing) {
+      const double along_y = share(random), along_x = share(random);  // in one order, which arguments do not have
+      place(x + along_x * spacing, y + along_y * spacing);
+    }
   }
 }
 
