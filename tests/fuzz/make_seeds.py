@@ -123,7 +123,21 @@ def animation_glb(*arguments):
     return b"glTF" + struct.pack("<II", 2, 12 + len(chunks)) + chunks
 
 
+def npy(kind, columns, values):
+    shape = f"({len(values) // columns}, {columns})" if columns > 1 else f"({len(values)},)"
+    header = f"{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}"
+    header = header.ljust(-(len(header) + 11) % 64 + len(header)) + "\n"
+    code = {"<f8": "d", "<f4": "f"}[kind]
+    return b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header.encode() + struct.pack(f"<{len(values)}{code}", *values)
+
+
 def main():
+    (CORPUS / "read_ball_lists").mkdir(exist_ok=True)
+    balls = npy("<f8", 3, [0, 0, 0, 1, 2, 3]) + npy("<f8", 1, [1, 0.5])
+    spokes = npy("<f4", 3, [0, 0, 1, 0.6, 0, 0.8])
+    write("read_ball_lists/arrays", balls)
+    write("read_ball_lists/arrays_with_spokes", balls + spokes + spokes)
+    write("read_ball_lists/arrays_with_a_spoke", balls + spokes)
     (CORPUS / "read_animation").mkdir(exist_ok=True)
     turn = [0, 0, 0, 1, 0.6, 0, 0, 0.8]
     write("read_animation/rotation", animation_text("rotation", turn))
