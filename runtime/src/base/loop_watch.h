@@ -5,11 +5,15 @@
 #include <stop_token>
 
 #include "medial_vk/progress.h"
+#include "medial_vk/result.h"
 
 namespace medial_vk {
 
 /// Thrown by a loop that is stopped.
-struct LoopStopped {};
+struct LoopStopped {
+  /// What the public call returns then.
+  static Error error() { return {ErrorCode::kInterrupted, "interrupted"}; }
+};
 
 /// Every call may come from any thread. Keeps references to both arguments.
 class LoopWatch {

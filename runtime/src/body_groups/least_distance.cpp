@@ -280,8 +280,6 @@ Status check(const BodyGroupImpl& group, const GroupOptions& options) {
   return Error{ErrorCode::kUsage, "`exact` needs bodies that were created with their meshes"};
 }
 
-Error stopped() { return {ErrorCode::kInterrupted, "interrupted"}; }
-
 }  // namespace
 
 Result<LeastDistance> least_distance(const BodyGroup& group, std::span<const Pose> poses, const GroupOptions& options,
@@ -292,7 +290,7 @@ Result<LeastDistance> least_distance(const BodyGroup& group, std::span<const Pos
   try {
     return LeastSearch(in_group, poses.data(), options, stop).run(start);
   } catch (const LoopStopped&) {
-    return stopped();
+    return LoopStopped::error();
   }
 }
 
@@ -311,7 +309,7 @@ Status least_distances(const BodyGroup& group, std::span<const Pose> poses, std:
       }
     });
   } catch (const LoopStopped&) {
-    return stopped();
+    return LoopStopped::error();
   }
   return {};
 }

@@ -74,6 +74,22 @@ void set_axes(const TipFit& fit, TipCurvature& tip) {
   }
 }
 
+/// The tip with the normal of a fit.
+TipCurvature with_normal(TipCurvature tip, const TipFit& fit, const FitLadder::Choice& choice, double spacing) {
+  tip.normal = fit.normal;
+  tip.normal_error = kErrorFactor * choice.angle_difference;
+  tip.window = kWindows[choice.step] * spacing;
+  return tip;
+}
+
+/// And with its curvatures.
+TipCurvature with_curvatures(TipCurvature tip, const TipFit& fit, const FitLadder::Choice& choice) {
+  set_axes(fit, tip);
+  tip.error = kErrorFactor * choice.form_difference;
+  tip.spread = fit.spread;
+  return tip;
+}
+
 /// At the spoke of an exposed region. Fits to the tips of sheets around it are believed where their normal is one of
 /// the region's, up to its own error.
 TipCurvature exposed_tip(const SheetLinks& links, const FitLadder& ladder, std::size_t at, const Point& spoke,
@@ -86,13 +102,7 @@ TipCurvature exposed_tip(const SheetLinks& links, const FitLadder& ladder, std::
   if (choice.step == 0) return tip;
   const TipFit& fit = ladder.step(choice.step).fits[at];
   const double radius = links.balls()[at / 2].radius;
-  TipCurvature known = tip;
-  known.normal = fit.normal;
-  known.normal_error = kErrorFactor * choice.angle_difference;
-  known.window = kWindows[choice.step] * links.spacing();
-  set_axes(fit, known);
-  known.error = kErrorFactor * choice.form_difference;
-  known.spread = fit.spread;
+  const TipCurvature known = with_curvatures(with_normal(tip, fit, choice, links.spacing()), fit, choice);
   const double off = std::atan2(length(cross(fit.normal, spoke)), dot(fit.normal, spoke));
   const bool agrees = off <= reach + known.normal_error && radius * known.kappa[0] < 1;
   return agrees && known.error <= greatest_error(known, radius) ? known : tip;
@@ -122,13 +132,8 @@ TipCurvature tip_of(const SheetLinks& links, const FitLadder& ladder, std::uint3
   if (choice.step == 0) return tip;
   const LadderStep& step = ladder.step(choice.step);
   const TipFit& fit = step.fits[at];
-  tip.normal = fit.normal;
-  tip.normal_error = kErrorFactor * choice.angle_difference;
-  tip.window = kWindows[choice.step] * links.spacing();
-  TipCurvature known = tip;
-  set_axes(fit, known);
-  known.error = kErrorFactor * choice.form_difference;
-  known.spread = fit.spread;
+  tip = with_normal(tip, fit, choice, links.spacing());
+  TipCurvature known = with_curvatures(tip, fit, choice);
   tip.state = CurvatureState::kUncertain;
   if (!(known.error <= greatest_error(known, radius))) return tip;
   tip.state = CurvatureState::kFocal;

@@ -1,4 +1,4 @@
-// Pairs of triangles that a ball with a large object angle may touch (docs/theory.md, "Least wall").
+// Pairs of contacts that a ball with a large object angle may have (docs/theory.md, "Least wall").
 #pragma once
 
 #include <array>
@@ -29,8 +29,8 @@ struct FacingTriangle {
   SpokeCone normal;  ///< Towards the side of contacts' spokes; an axis of zero: any.
 };
 
-/// The least radius of a ball around m, |m - c| <= h, with an object angle of theta or more, and contacts
-/// at distances from c whose squares have the mean d^2, or a greater one.
+/// The least radius of a ball around m, |m - c| <= h, with an object angle of theta or more, and contacts at distances
+/// from c whose squares have the mean d^2, or a greater one.
 double least_radius_around(double d, double h, double theta);
 
 /// By triangle: a cap that holds the spokes of all contacts on it, whichever of the other triangles meet it there.

@@ -155,7 +155,7 @@ Result<LeastWall> measure_least_wall(const IndexedMesh& mesh, const LeastWallOpt
       if (options.limit == 0) field.options.limit = mesh.longest_side();
       return LeastWallSearch(field, whole, stop).run(progress);
     } catch (const LoopStopped&) {
-      return Error{ErrorCode::kInterrupted, "interrupted"};
+      return LoopStopped::error();
     }
   });
 }

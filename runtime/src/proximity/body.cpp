@@ -140,7 +140,7 @@ Result<Body> Body::create(const IndexedMesh& mesh, std::span<const Ball> inside,
       }
       return Body(impl);
     } catch (const LoopStopped&) {
-      return Error{ErrorCode::kInterrupted, "interrupted"};
+      return LoopStopped::error();
     }
   });
 }

@@ -116,8 +116,6 @@ Distance distance_of(const Body& a, const Body& b, const Pose& pose, const Dista
   return distance_of(in_a, in_b, placement, options, start, stop);
 }
 
-Error stopped() { return {ErrorCode::kInterrupted, "interrupted"}; }
-
 }  // namespace
 
 Distance distance_of(const BodyImpl& a, const BodyImpl& b, const Placement& placement, const DistanceOptions& options,
@@ -135,7 +133,7 @@ Result<Distance> distance(const Body& a, const Body& b, const Pose& pose, const 
   try {
     return distance_of(a, b, pose, options, start, stop);
   } catch (const LoopStopped&) {
-    return stopped();
+    return LoopStopped::error();
   }
 }
 
@@ -150,7 +148,7 @@ Status distances(const Body& a, const Body& b, std::span<const Pose> poses, std:
       }
     });
   } catch (const LoopStopped&) {
-    return stopped();
+    return LoopStopped::error();
   }
   return {};
 }

@@ -68,7 +68,7 @@ Result<std::vector<Thickness>> measure_thickness(const IndexedMesh& mesh, std::s
     try {
       return measure(field, points, progress, stop);
     } catch (const LoopStopped&) {
-      return Error{ErrorCode::kInterrupted, "interrupted"};
+      return LoopStopped::error();
     }
   });
 }

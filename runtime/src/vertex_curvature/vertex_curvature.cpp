@@ -183,7 +183,7 @@ Result<std::vector<VertexCurvature>> curvature_at_vertices(const IndexedMesh& me
     try {
       return assign(mesh, balls, curvature, options, progress, stop);
     } catch (const LoopStopped&) {
-      return Error{ErrorCode::kInterrupted, "interrupted"};
+      return LoopStopped::error();
     }
   });
 }
