@@ -13,7 +13,7 @@ constexpr double kInset = 0x1p-20;
 // Smaller balls than this share of delta are not searched for.
 constexpr double kLeastShare = 0x1p-4;
 
-constexpr std::size_t kMostOthers = 8, kMostKept = 40;
+constexpr std::size_t kMostOthers = 8, kMostKept = 24;
 
 }  // namespace
 

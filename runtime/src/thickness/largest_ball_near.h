@@ -6,8 +6,8 @@
 
 namespace medial_vk {
 
-/// Searches for one point after another in the same memory. Contacts that were of use at one point are tried first at
-/// the next, which had better be near.
+/// Searches for one point after another in the same memory. The next point had better be near: contacts that were of
+/// use at one are tried first at the next, and the ball is sought in a direction that leans as the last one did.
 class LargestBallNear {
  public:
   explicit LargestBallNear(const ThicknessField& field) : balls_(field), facets_(balls_), cells_(balls_) {}
@@ -21,6 +21,7 @@ class LargestBallNear {
   BallsNear balls_;
   FacetSearch facets_;
   CellSearch cells_;
+  Point lean_ = {0, 0, 0};  // the direction of the last ball less the likely one
 };
 
 }  // namespace medial_vk

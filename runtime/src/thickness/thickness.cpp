@@ -13,7 +13,7 @@
 namespace medial_vk {
 namespace {
 
-constexpr std::size_t kPointsAtATime = 32;  // that one thread takes, neighbours in space
+constexpr std::size_t kPointsAtATime = 128;  // that one thread takes, neighbours in space
 
 Error usage(const char* message) { return {ErrorCode::kUsage, message}; }
 
