@@ -7,7 +7,13 @@ namespace {
 
 constexpr std::size_t kSteps = kWindows.size();
 constexpr double kBiasShare = 0.25;  // of the fourth power of widths whose squares are as 1 to 2
-constexpr double kSameSide = 0.7;    // of spokes within half of a window
+// Of the difference of a width from the next narrower one: at most so much is its own noise, which falls with the third
+// power of the width, or, if it is the widest, its own bias, of which the difference is three quarters.
+constexpr double kNoiseShare = 0.354, kWidestShare = 1 / (1 - kBiasShare);
+// Of the difference of the next wider one from it, a third would be its bias; more, as not all is of the fourth power.
+constexpr double kBiasOfNext = 0.5;
+constexpr double kSameSide = 0.7;     // of spokes of tips that are compared
+constexpr double kLeastReach = 10.0;  // spacings from a tip to others whose windows tell what is usual
 
 double angle_of(const Point& a, const Point& b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
 
@@ -26,26 +32,44 @@ std::vector<Difference> differences_of(const LadderStep& wide, const LadderStep&
   return out;
 }
 
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+double upper_quartile(std::vector<double>& values) {
+  const auto quartile = values.begin() + static_cast<std::ptrdiff_t>(3 * values.size() / 4);
+  std::nth_element(values.begin(), quartile, values.end());
+  return *quartile;
 }
 
-/// The width that differs least from the next narrower one. Where windows lie within single facets, narrow ones differ
-/// little from each other, and are wrong. So a width is no better than the wider ones would let it be if their
-/// differences were bias, of which the next narrower one has a quarter.
+/// Two estimates of the error of a width, by its difference from the next narrower one and those of wider ones, each
+/// from the next narrower one. The second is larger: nothing in it is divided by what noise or bias would change.
+struct WidthErrors {
+  double likely, most;
+
+  WidthErrors(double own, double of_wider, bool is_widest)
+      : likely(std::max((is_widest ? kWidestShare : kNoiseShare) * own, kBiasOfNext * of_wider)),
+        most(std::max(own, of_wider)) {}
+};
+
+/// The width with the least likely error. Where windows lie within single facets, narrow ones differ little from each
+/// other, and are wrong. So a width is no better than the wider ones would let it be if their differences were bias, of
+/// which the next narrower one has a quarter.
 FitLadder::Choice choice_of(const std::array<Difference, kSteps>& differences) {
   FitLadder::Choice best;
-  double least_form = 0, least_angle = 0;
+  Difference wider = {0, 0};
+  double least = 0;
+  bool is_widest = true;
   for (std::size_t i = kSteps - 1; i > 0; --i) {
     const Difference& at = differences[i];
-    least_form *= kBiasShare;
-    least_angle *= kBiasShare;
-    if (std::isnan(at.form)) continue;
-    least_form = std::max(least_form, at.form);
-    least_angle = std::max(least_angle, at.angle);
-    if (best.step == 0 || least_form < best.form_difference) best = {i, least_form, least_angle};
+    const Difference bias = {kBiasShare * wider.form, kBiasShare * wider.angle};  // if it is that of the next wider one
+    if (std::isnan(at.form)) {
+      wider = bias;
+      continue;
+    }
+    const WidthErrors form(at.form, wider.form, is_widest), angle(at.angle, wider.angle, is_widest);
+    if (best.step == 0 || form.likely < least) {
+      best = {i, form.most, angle.most};
+      least = form.likely;
+    }
+    wider = {std::max(bias.form, at.form), std::max(bias.angle, at.angle)};
+    is_widest = false;
   }
   return best;
 }
@@ -174,16 +198,18 @@ void FitLadder::choose(double spacing, unsigned threads) {
   for (std::size_t k = 1; k < kSteps; ++k) differences[k] = differences_of(steps_[k], steps_[k - 1]);
   choices_.resize(count);
   for (std::size_t k = 1; k < kSteps; ++k) {
-    // The median over the tips around, in the place of the value of one: those at a rim may differ much more.
+    // The upper quartile over the tips around, in the place of the value of one: within a facet, narrow windows agree,
+    // and those across its edges do not.
     std::vector<Difference> usual(count, Difference{std::nan(""), std::nan("")});
     const TipCloud& cloud = steps_[k].cloud;
     const std::vector<std::uint32_t>& numbers = steps_[k].numbers;
-    const PointGrid grid(cloud.tips, kWindows[k] * spacing / 4);
+    const double reach = std::max(kWindows[k] / 2, kLeastReach) * spacing;
+    const PointGrid grid(cloud.tips, reach / 2);
     parallel_for(numbers.size(), 64, threads, [&](std::size_t place) {
       const std::uint32_t i = numbers[place];
       if (stop_.stop_requested() || std::isnan(differences[k][i].form)) return;
       std::vector<double> forms, angles;
-      grid.visit_within(cloud.tips[place], kWindows[k] / 2 * spacing, [&](std::uint32_t other, double) {
+      grid.visit_within(cloud.tips[place], reach, [&](std::uint32_t other, double) {
         const Difference& there = differences[k][numbers[other]];
         if (steps_[k].is_kept[other] == 0 || std::isnan(there.form)) return;
         if (dot(cloud.normals[other], cloud.normals[place]) < kSameSide) return;
@@ -193,7 +219,8 @@ void FitLadder::choose(double spacing, unsigned threads) {
       if (forms.empty()) return;
       // A tip that differs by more than twice what is usual around it is a stray.
       const Difference& own = differences[k][i];
-      usual[i] = {std::sqrt(std::max(median(forms), own.form / 4)), std::sqrt(std::max(median(angles), own.angle / 4))};
+      usual[i] = {std::sqrt(std::max(upper_quartile(forms), own.form / 4)),
+                  std::sqrt(std::max(upper_quartile(angles), own.angle / 4))};
     });
     differences[k] = std::move(usual);
   }

@@ -37,8 +37,8 @@ class FitLadder {
 
   const LadderStep& step(std::size_t i) const { return steps_[i]; }
 
-  /// The width chosen for a tip, and how much its results differ from those of the next narrower one: medians over
-  /// the tips within half of the window.
+  /// The width chosen for a tip, and how much its results differ from those of the next narrower and wider ones: upper
+  /// quartiles over the tips around.
   struct Choice {
     std::size_t step = 0;         ///< 0: no width gives a result.
     double form_difference = 0;   ///< 1 / length
