@@ -1,11 +1,11 @@
 // Balls that follow a mesh on a device through five motions of 20 frames: rows of a table.
 //   bench_following_on_device [--frames N] [--repeats N] [--device NAME] [--extract N] [--check] MESH BALLS.csv
 // For each motion: the share of the solid's volume that is in no ball at its end, on the device and by the host's
-// follower, and with --extract that of all medial points of the last frame at resolution N; with --check how many balls
-// of all frames reach out, by the CPU reference: if there is any, the exit code is 1; the balls that are lost there;
-// the time of a frame by the clock, from its vertices on the host until the device is done, the median and the greatest
-// of all frames and repeats; the median of the processor's time, in which that of a device of the host's processors is
-// included; and the part by the clock until the commands are submitted.
+// follower without steps, and with --extract that of all medial points of the last frame at resolution N; with --check
+// how many balls of all frames reach out, by the CPU reference: if there is any, the exit code is 1; the balls that are
+// lost there; the time of a frame by the clock, from its vertices on the host until the device is done, the median and
+// the greatest of all frames and repeats; the median of the processor's time, in which that of a device of the host's
+// processors is included; and the part by the clock until the commands are submitted.
 #include <volk.h>
 
 #include <fmt/format.h>
@@ -89,7 +89,9 @@ struct How {
 bool follow_on_device(Context& context, Motion motion, const IndexedMesh& mesh, std::span<const Ball> given,
                       const How& how) {
   FollowerJob job = or_exit(FollowerJob::create(context, mesh, given));
-  Follower follower = or_exit(Follower::create(mesh, given));
+  FollowerOptions as_recorded;
+  as_recorded.steps = 0;
+  Follower follower = or_exit(Follower::create(mesh, given, as_recorded));
   RecordedFrames frames(context);
   FrameTimes times;
   BallsOutside outside;
