@@ -45,7 +45,7 @@ class InsideBalls final : public MovingBalls {
   }
 
   Status estimate_outside(std::span<const Point> vertices, IndexedMesh& mesh, FollowedFrame& frame) const override {
-    constexpr std::size_t kSamples = 20'000;
+    constexpr std::size_t kSamples = 100'000;
     if (options_.follower.rule != FollowRule::kPublished || !mesh.prepared().report.closed) return {};
     const OutsideSamples samples(frame.balls, protrusion_, kSamples);
     std::vector<double> depths(samples.points().size());
