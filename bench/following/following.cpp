@@ -1,11 +1,13 @@
 // Balls that follow a mesh through five motions of 20 frames: rows of a table.
 //   bench_following [--frames N] [--repeats N] [--threads N] [--motion NAME] [--rule NAME] [--fresh | --extract N]
-//                   MESH BALLS.csv
+//                   [--check] MESH BALLS.csv
 // For each motion and rule: the share of the solid's volume that is in no ball at its end, the greatest one of any
 // frame there and back, that where the last frame is computed from the rest pose at once, and that after the way back;
 // for the published rule the bound of Lemma 7.3 and the share outside the solid, by samples, of its last frame; the
 // time of a frame by the clock and of the processor, medians of all frames and repeats; with --fresh beside a new fit
-// of as many balls to the last frame, with --extract beside all medial points of the last frame at resolution N.
+// of as many balls to the last frame, with --extract beside all medial points of the last frame at resolution N; with
+// --check how many balls of all frames of the motion reach out, by the CPU reference, other than those of the published
+// rule, which may: if there is any, the exit code is 1.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -22,9 +24,8 @@
 
 #include "../helpers.h"
 #include "../unions/ball_files.h"
+#include "frames.h"
 #include "input/read_mesh.h"
-#include "medial_vk/ball_union.h"
-#include "medial_vk/certify.h"
 #include "medial_vk/context.h"
 #include "medial_vk/follower.h"
 #include "medial_vk/prepare.h"
@@ -85,32 +86,44 @@ struct Times {
   }
 };
 
-/// There and back, the greatest share that is uncovered: without times, which measuring in between would change.
-double worst_share(Follower& follower, const Frames& frames) {
+/// There and back, the greatest share that is uncovered, and with `check` the balls outside on the way there: without
+/// times, which measuring in between would change.
+double worst_share(Follower& follower, const IndexedMesh& mesh, const Frames& frames, bool check,
+                   BallsOutside& outside) {
   exit_unless(follower.reset());
   double worst = uncovered(follower).share;
   const auto take = [&](const std::vector<Point>& frame) {
     exit_unless(follower.update(frame));
     worst = std::max(worst, uncovered(follower).share);
   };
-  for (const auto& frame : frames) take(frame);
+  for (const auto& frame : frames) {
+    take(frame);
+    if (check) outside.count(mesh, frame, follower.balls());
+  }
   for (std::size_t i = frames.size() - 1; i-- > 0;) take(frames[i]);
   return worst;
 }
 
-void follow(const std::string& title, const Rule& rule, const IndexedMesh& mesh, std::span<const Ball> balls,
-            const Frames& frames, int repeats, const std::string& fresh, unsigned threads) {
+struct How {
+  int repeats = 1;
+  unsigned threads = 0;
+  bool check = false;
+};
+
+/// A row. False: a ball reaches out that must not.
+bool follow(const std::string& title, const Rule& rule, const IndexedMesh& mesh, std::span<const Ball> balls,
+            const Frames& frames, const std::string& fresh, const How& how) {
   FollowerOptions options;
   options.rule = rule.rule;
   options.steps = rule.steps;
   options.renewed = rule.renewed;
-  options.threads = threads;
+  options.threads = how.threads;
   Follower follower = or_exit(Follower::create(mesh, balls, options));
   const Uncovered rest = uncovered(follower);
   Times times;
   Uncovered end{}, back{};
   std::size_t medial = 0;
-  for (int repeat = 0; repeat < repeats; ++repeat) {
+  for (int repeat = 0; repeat < how.repeats; ++repeat) {
     exit_unless(follower.reset());
     for (const auto& frame : frames) times.update(follower, frame);
     end = uncovered(follower);
@@ -122,21 +135,18 @@ void follow(const std::string& title, const Rule& rule, const IndexedMesh& mesh,
   exit_unless(follower.reset());
   exit_unless(follower.update(frames.back()));
   const Uncovered at_once = uncovered(follower);
+  const bool may_reach_out = options.rule == FollowRule::kPublished;
   // Frames of the published rule do not depend on those before.
-  const std::string outside = options.rule == FollowRule::kPublished ? outside_text(mesh, frames.back(), follower) : "";
-  fmt::print("| {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {} | {:.2f} | {:.2f} | {} | {:.0f} | {:.2f} | {:.2f} |\n",
-             title, rule.name, rest.share, end.share, worst_share(follower, frames), at_once.share, fresh,
-             back.share / rest.share, end.outside_bound, outside,
-             100.0 * static_cast<double>(medial) / static_cast<double>(balls.size()), median(times.clock),
-             median(times.processor));
+  const std::string share = may_reach_out ? outside_text(mesh, frames.back(), follower) : "";
+  BallsOutside outside;
+  const double worst = worst_share(follower, mesh, frames, how.check && !may_reach_out, outside);
+  fmt::print(
+      "| {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {} | {:.2f} | {:.2f} | {} | {} | {:.0f} | {:.2f} | {:.2f} |\n",
+      title, rule.name, rest.share, end.share, worst, at_once.share, fresh, back.share / rest.share, end.outside_bound,
+      share, outside.text(), 100.0 * static_cast<double>(medial) / static_cast<double>(balls.size()),
+      median(times.clock), median(times.processor));
   std::fflush(stdout);
-}
-
-IndexedMesh moved_mesh(const IndexedMesh& mesh, const std::vector<Point>& frame) {
-  Mesh moved;
-  moved.vertices = frame;
-  moved.triangles.assign(mesh.view().triangles.begin(), mesh.view().triangles.end());
-  return or_exit(IndexedMesh::build(or_exit(prepare_mesh(std::move(moved)))));
+  return outside.failed() == 0;
 }
 
 /// Percent of the volume that a new fit to the frame leaves uncovered.
@@ -147,28 +157,18 @@ std::string fresh_fit(const IndexedMesh& mesh, std::size_t count, Context& conte
   return fmt::format("{:.2f}", 100 * fit.measures.volume.uncovered / fit.measures.volume.solid);
 }
 
-/// Percent of the volume in no ball around a medial point of the frame.
-std::string fresh_points(const IndexedMesh& mesh, int resolution, Context& context) {
-  ExtractionOptions options;
-  options.resolution = resolution;
-  const CertifiedExtraction found = or_exit(extract_and_certify(mesh, options, context));
-  std::vector<Ball> balls;
-  for (const MedialSphere& sphere : found.extraction.spheres) balls.push_back({sphere.centre, sphere.radius});
-  const double solid = std::fabs(mesh.prepared().report.signed_volume);
-  return fmt::format("{:.2f}", 100 * (1 - or_exit(measure_ball_union(balls)).volume / solid));
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{"Balls that follow a mesh"};
   std::string mesh_file, ball_file, only, only_rule;
-  int frames = 20, repeats = 1, resolution = 0;
-  bool fresh = false;
-  unsigned threads = 0;
+  int frames = 20, resolution = 0;
+  bool fresh = false, all_inside = true;
+  How how;
   app.add_option("--frames", frames)->check(CLI::PositiveNumber);
-  app.add_option("--repeats", repeats)->check(CLI::PositiveNumber);
-  app.add_option("--threads", threads);
+  app.add_option("--repeats", how.repeats)->check(CLI::PositiveNumber);
+  app.add_option("--threads", how.threads);
+  app.add_flag("--check", how.check);
   app.add_option("--motion", only);
   app.add_option("--rule", only_rule);
   CLI::Option* fit = app.add_flag("--fresh", fresh);
@@ -184,11 +184,12 @@ int main(int argc, char** argv) {
     if (!only.empty() && only != name_of(motion)) continue;
     const Frames moved = frames_of(mesh.view().vertices, motion, frames);
     std::string again;
-    if (fresh) again = fresh_fit(moved_mesh(mesh, moved.back()), balls.size(), *context);
-    if (resolution > 0) again = fresh_points(moved_mesh(mesh, moved.back()), resolution, *context);
+    if (fresh) again = fresh_fit(mesh_in_frame(mesh, moved.back()), balls.size(), *context);
+    if (resolution > 0) again = fresh_points(mesh_in_frame(mesh, moved.back()), resolution, *context);
     for (const Rule& rule : kRules) {
       if (!only_rule.empty() && only_rule != rule.name) continue;
-      follow(name_of(motion), rule, mesh, balls, moved, repeats, again, threads);
+      all_inside &= follow(name_of(motion), rule, mesh, balls, moved, again, how);
     }
   }
+  return all_inside ? 0 : 1;
 }

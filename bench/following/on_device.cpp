@@ -1,9 +1,11 @@
 // Balls that follow a mesh on a device through five motions of 20 frames: rows of a table.
-//   bench_following_on_device [--frames N] [--repeats N] [--device NAME] MESH BALLS.csv
+//   bench_following_on_device [--frames N] [--repeats N] [--device NAME] [--extract N] [--check] MESH BALLS.csv
 // For each motion: the share of the solid's volume that is in no ball at its end, on the device and by the host's
-// follower; the balls that are lost there; the time of a frame by the clock, from its vertices on the host until the
-// device is done, the median and the greatest of all frames and repeats; the median of the processor's time, in which
-// that of a device of the host's processors is included; and the part by the clock until the commands are submitted.
+// follower without steps, and with --extract that of all medial points of the last frame at resolution N; with --check
+// how many balls of all frames reach out, by the CPU reference: if there is any, the exit code is 1; the balls that are
+// lost there; the time of a frame by the clock, from its vertices on the host until the device is done, the median and
+// the greatest of all frames and repeats; the median of the processor's time, in which that of a device of the host's
+// processors is included; and the part by the clock until the commands are submitted.
 #include <volk.h>
 
 #include <fmt/format.h>
@@ -20,6 +22,7 @@
 
 #include "../helpers.h"
 #include "../unions/ball_files.h"
+#include "frames.h"
 #include "input/read_mesh.h"
 #include "medial_vk/ball_union.h"
 #include "medial_vk/context.h"
@@ -60,32 +63,60 @@ struct FrameTimes {
   }
 };
 
-void follow_on_device(Context& context, Motion motion, const IndexedMesh& mesh, std::span<const Ball> given, int count,
-                      int repeats) {
-  FollowerJob job = or_exit(FollowerJob::create(context, mesh, given));
-  Follower follower = or_exit(Follower::create(mesh, given));
-  RecordedFrames frames(context);
-  FrameTimes times;
-  for (int repeat = 0; repeat < repeats; ++repeat) {
-    job.reset();
-    for (int i = 1; i <= count; ++i) {
-      const std::vector<Point> frame =
-          moved_vertices(mesh.view().vertices, motion, static_cast<double>(i) / static_cast<double>(count));
-      times.update(frames, job, frame);
-      if (repeat == 0) exit_unless(follower.update(frame));
-    }
-  }
+/// The balls of the present frame, without those that are lost.
+std::vector<Ball> balls_on_device(RecordedFrames& frames, const FollowerJob& job, std::size_t count) {
   std::vector<Ball> balls;
-  for (const RecordedBall& ball : frames.read<RecordedBall>(job.buffers().balls, given.size())) {
+  for (const RecordedBall& ball : frames.read<RecordedBall>(job.buffers().balls, count)) {
     if (ball.radius > 0) balls.push_back({{ball.centre[0], ball.centre[1], ball.centre[2]}, ball.radius});
   }
+  return balls;
+}
+
+/// As the device has them.
+std::vector<Point> in_float(std::vector<Point> frame) {
+  for (Point& p : frame) {
+    for (double& x : p) x = static_cast<float>(x);
+  }
+  return frame;
+}
+
+struct How {
+  int frames = 20, repeats = 1, resolution = 0;
+  bool check = false;
+};
+
+/// A row. False: a ball reaches out.
+bool follow_on_device(Context& context, Motion motion, const IndexedMesh& mesh, std::span<const Ball> given,
+                      const How& how) {
+  FollowerJob job = or_exit(FollowerJob::create(context, mesh, given));
+  FollowerOptions as_recorded;
+  as_recorded.steps = 0;
+  Follower follower = or_exit(Follower::create(mesh, given, as_recorded));
+  RecordedFrames frames(context);
+  FrameTimes times;
+  BallsOutside outside;
+  std::vector<Point> frame;
+  for (int repeat = 0; repeat < how.repeats; ++repeat) {
+    job.reset();
+    for (int i = 1; i <= how.frames; ++i) {
+      frame = moved_vertices(mesh.view().vertices, motion, static_cast<double>(i) / how.frames);
+      times.update(frames, job, frame);
+      if (repeat > 0) continue;
+      exit_unless(follower.update(frame));
+      if (how.check) outside.count(mesh, in_float(frame), balls_on_device(frames, job, given.size()));
+    }
+  }
+  const std::vector<Ball> balls = balls_on_device(frames, job, given.size());
+  const std::string fresh =
+      how.resolution > 0 ? fresh_points(mesh_in_frame(mesh, frame), how.resolution, context) : std::string();
   const FollowMeasures measures = or_exit(follower.measure());
   const double volume = or_exit(measure_ball_union(balls)).volume;
-  fmt::print("| {} | {:.2f} | {:.2f} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |\n", name_of(motion),
-             100 * (1 - volume / measures.solid_volume), 100 * measures.uncovered() / measures.solid_volume,
-             given.size() - balls.size(), median(times.all), *std::ranges::max_element(times.all),
+  fmt::print("| {} | {:.2f} | {:.2f} | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |\n", name_of(motion),
+             100 * (1 - volume / measures.solid_volume), 100 * measures.uncovered() / measures.solid_volume, fresh,
+             outside.text(), given.size() - balls.size(), median(times.all), *std::ranges::max_element(times.all),
              median(times.processor), median(times.host));
   std::fflush(stdout);
+  return outside.failed() == 0;
 }
 
 }  // namespace
@@ -94,9 +125,12 @@ int main(int argc, char** argv) {
   CLI::App app{"Balls that follow a mesh on a device"};
   std::string mesh_file, ball_file;
   ContextOptions options;
-  int frames = 20, repeats = 1;
-  app.add_option("--frames", frames)->check(CLI::PositiveNumber);
-  app.add_option("--repeats", repeats)->check(CLI::PositiveNumber);
+  How how;
+  bool all_inside = true;
+  app.add_option("--frames", how.frames)->check(CLI::PositiveNumber);
+  app.add_option("--repeats", how.repeats)->check(CLI::PositiveNumber);
+  app.add_option("--extract", how.resolution)->check(CLI::PositiveNumber);
+  app.add_flag("--check", how.check);
   app.add_option("--device", options.device);
   app.add_option("MESH", mesh_file)->required();
   app.add_option("BALLS", ball_file)->required();
@@ -104,5 +138,6 @@ int main(int argc, char** argv) {
   const IndexedMesh mesh = or_exit(IndexedMesh::build(or_exit(prepare_mesh(or_exit(read_mesh(mesh_file))))));
   const std::vector<Ball> balls = read_balls(ball_file);
   Context context = or_exit(Context::create(options));
-  for (const Motion motion : kMotions) follow_on_device(context, motion, mesh, balls, frames, repeats);
+  for (const Motion motion : kMotions) all_inside &= follow_on_device(context, motion, mesh, balls, how);
+  return all_inside ? 0 : 1;
 }

@@ -13,8 +13,7 @@ struct ShareOutside {
   double percent, standard_error;  ///< Of the volume of the solid.
 };
 
-/// The volume of the balls outside the solid, from samples; of no hit, the error of three hits. Balls reach out of it
-/// by at most `protrusion`.
+/// The volume of the balls outside the solid, by OutsideSamples. Balls reach out of it by at most `protrusion`.
 ShareOutside share_outside(const IndexedMesh& mesh, const std::vector<Point>& frame, std::span<const Ball> balls,
                            double protrusion);
 

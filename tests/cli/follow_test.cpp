@@ -172,9 +172,39 @@ TEST_F(FollowCommand, AnOpenMeshHasNoVolumeThatCouldGrow) {
 }
 
 TEST_F(FollowCommand, ThePublishedRuleReportsWhatMayBeOutside) {
-  const ToolResult result = follow_box({"-o", "a.npz", "--rule", "published"});
+  const ToolResult result = follow_box({"-o", "a.csv", "-o", "a.npz", "--rule", "published"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.err, HasSubstr("outside   at most"));
+  EXPECT_THAT(result.err, HasSubstr(" % by samples (standard error "));
+  const std::string table = read_file(path("a.csv"));
+  EXPECT_THAT(table, HasSubstr("outside_bound,outside_estimate,outside_error,gap_lower"));
+  for (std::size_t frame = 0; frame < 3; ++frame) {
+    const std::vector<std::string> numbers = frame_line(table, frame);
+    const double bound = std::stod(numbers[6]), estimate = std::stod(numbers[7]), error = std::stod(numbers[8]);
+    EXPECT_GT(error, 0) << frame;
+    EXPECT_LE(estimate, bound + 4 * error) << frame;
+  }
+  EXPECT_EQ(follow_box({"-o", "again.csv", "-q", "--rule", "published"}).exit_code, 0);
+  EXPECT_EQ(read_file(path("again.csv")), table);
+  EXPECT_THAT(follow_box({"-o", "-", "-q"}).out, testing::Not(HasSubstr("outside_estimate")));
+}
+
+// An open mesh has no volume, and of balls that all are lost nothing is outside.
+TEST_F(FollowCommand, ThePublishedRuleHasEstimatesOfClosedFramesAlone) {
+  Mesh open = test::make_box({2, 1, 1}), flat = open;
+  open.triangles.pop_back();
+  for (Point& p : flat.vertices) p[2] = 0;
+  test::write_file(path("open.obj"), test::to_obj(open));
+  test::write_file(path("flat.obj"), test::to_obj(flat));
+  const ToolResult of_open = follow({"open.obj", "open.obj", "--balls", "balls.csv", "--rule", "published", "-o", "-"});
+  ASSERT_EQ(of_open.exit_code, 0) << of_open.err;
+  EXPECT_EQ(frame_line(of_open.out, 1)[7], "");
+  EXPECT_EQ(frame_line(of_open.out, 1)[8], "");
+  const ToolResult of_flat =
+      follow({"box_0.obj", "flat.obj", "--balls", "balls.csv", "--rule", "published", "-o", "-"});
+  ASSERT_EQ(of_flat.exit_code, 0) << of_flat.err;
+  EXPECT_EQ(frame_line(of_flat.out, 1)[7], "0");
+  EXPECT_EQ(frame_line(of_flat.out, 1)[8], "0");
 }
 
 TEST_F(FollowCommand, FramesThatDifferAreNamed) {

@@ -103,18 +103,24 @@ TEST_F(RecordedFollowing, ReadsVerticesThatTheHostWrites) {
   vulkan_->destroy(from);
 }
 
-// Each sequence has the vertices that were set before it was recorded, and follows the one before it.
+// Each sequence has the vertices that were set before it was recorded, and follows the one before it: in one buffer of
+// commands, or submitted after the one before it, for whose end nothing waits.
 TEST_F(RecordedFollowing, TwoFramesInFlightAreAsOneByOne) {
   Context context = adopt();
   FollowerJobOptions options;
   options.frames = 2;
   FollowerJob one_by_one = FollowerJob::create(context, *mesh_, balls_).value(),
               job = FollowerJob::create(context, *mesh_, balls_, options).value();
-  for (const double first : {0.1, 0.3}) {
+  for (const bool is_one_buffer : {true, false}) {
+    const double first = is_one_buffer ? 0.1 : 0.3;
     const std::array times = {first, first + 0.1};
-    const VkCommandBuffer commands = begin();
+    VkCommandBuffer commands = begin();
     std::vector<HostBuffer> copies;
     for (const double by : times) {
+      if (by != first && !is_one_buffer) {
+        end_and_submit(commands);
+        commands = begin();
+      }
       ASSERT_TRUE(job.set_vertices(frame(by)).ok());
       ASSERT_TRUE(job.record(commands).ok());
       copies.push_back(copy_of(commands, job.buffers().balls, balls_.size() * sizeof(RecordedBall)));

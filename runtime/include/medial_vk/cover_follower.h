@@ -71,8 +71,12 @@ class CoverFollower {
   /// kOutOfMemory.
   Status reset();
   /// Divides the boundary of the present frame among the balls anew, so that they become smaller, and lets later frames
-  /// be computed from it instead of from the rest pose. The volume of the union does not grow. Takes the time of some
-  /// twenty frames. Error: kOutOfMemory (nothing has changed).
+  /// be computed from it instead of from the rest pose. It begins with the balls of this frame or, if their union is
+  /// smaller, with those that the division of create() gives them here. So the cover is no larger than it was, nor
+  /// than that of a follower without any tighten(), whatever the frames before were; it is larger only where otherwise
+  /// the solid would not be proved to be covered. The division of a frame that is flat or where parts cross makes later
+  /// covers large, until the next tighten() or reset(). Takes the time of some twenty frames. Error: kOutOfMemory
+  /// (nothing has changed).
   Status tighten();
 
   /// The balls of the present frame, in the order in which they were given; those that are not needed have the radius

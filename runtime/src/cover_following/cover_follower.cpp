@@ -76,18 +76,14 @@ class CoverFollower::Impl {
     constexpr std::uint32_t kSteps = 4;
     Result<double> volume = volume_of(balls_);
     if (!volume) return volume.error();
-    Cover best = {carried_, balls_, state_};
-    std::vector<Ball> present = balls_;
+    Cover best = {carried_, balls_, state_, volume.value()};
+    if (Status status = prefer_rest(best); !status) return status;
     for (int round = 0; round < kRounds; ++round) {
-      const double least = volume.value();
-      Result<Cover> next = tightened(present, std::max(options_.steps, kSteps));
+      Result<Cover> next = tightened(best.balls, std::max(options_.steps, kSteps));
       if (!next) return next.error();
-      volume = volume_of(next.value().balls);
-      if (!volume) return volume.error();
       const bool holds_less = best.state == CoverState::kSolid && next.value().state != CoverState::kSolid;
-      if (!(volume.value() < least) || holds_less) break;
+      if (!(next.value().volume < best.volume) || holds_less) break;
       best = std::move(next).value();
-      present = best.balls;
     }
     std::ranges::copy(best.balls, balls_.begin());
     carried_ = std::move(best.carried);
@@ -111,6 +107,7 @@ class CoverFollower::Impl {
     std::shared_ptr<const CarriedBalls> carried;
     std::vector<Ball> balls;
     CoverState state;
+    double volume;  // of the union
   };
 
   Impl(MovingSurface surface, const CoverFollowerOptions& options, unsigned threads)
@@ -151,6 +148,28 @@ class CoverFollower::Impl {
     return {};
   }
 
+  /// The cover of the present frame by the division at rest replaces one that is larger, or is not proved to hold the
+  /// solid where that one is. A division of a frame without volume, or of one where parts cross, leaves most of the
+  /// surface to a few balls, and nothing to the others, to which no later division of the same balls gives anything.
+  Status prefer_rest(Cover& cover) {
+    if (cover.carried == rest_) return {};
+    std::vector<Ball> balls = cover.balls;
+    if (Status status = place(*rest_, options_.steps, balls); !status) return status;
+    Result<double> volume = volume_of(balls);
+    if (!volume) return volume.error();
+    // Balls that fill cavities only grow.
+    if (cover.state == CoverState::kSolid && !(volume.value() < cover.volume)) return {};
+    const Result<CoverState> state = hold(balls);
+    if (!state) return state.error();
+    volume = volume_of(balls);
+    if (!volume) return volume.error();
+    const bool is_smaller = volume.value() < cover.volume;
+    if (state.value() == cover.state ? is_smaller : state.value() == CoverState::kSolid) {
+      cover = {rest_, std::move(balls), state.value(), volume.value()};
+    }
+    return {};
+  }
+
   /// The boundary of the present frame, divided anew. Later frames begin where the steps have ended.
   Result<Cover> tightened(std::vector<Ball> balls, std::uint32_t steps) {
     std::shared_ptr<const CarriedBalls> carried = divided(balls);
@@ -158,7 +177,9 @@ class CoverFollower::Impl {
     carried = std::make_shared<const CarriedBalls>(surface_, carried->patches(), balls);
     const Result<CoverState> state = hold(balls);
     if (!state) return state.error();
-    return Cover{std::move(carried), std::move(balls), state.value()};
+    const Result<double> volume = volume_of(balls);
+    if (!volume) return volume.error();
+    return Cover{std::move(carried), std::move(balls), state.value(), volume.value()};
   }
 
   /// The balls of the present frame, which hold its triangles, replace `balls`.

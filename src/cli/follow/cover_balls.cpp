@@ -81,6 +81,9 @@ class CoverBalls final : public MovingBalls {
     return {};
   }
 
+  /// How far they reach out is what a cover has in its place.
+  Status estimate_outside(std::span<const Point>, IndexedMesh&, FollowedFrame&) const override { return {}; }
+
   CheckReport check(const PreparedMesh& frame, std::span<const Ball> balls) const override {
     return check_balls_cover(frame, balls);
   }

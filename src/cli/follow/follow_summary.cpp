@@ -20,7 +20,8 @@ std::string renewed_text(const FollowOptions& options, const MotionRecord& recor
     frames += frame.renewed() > 0 ? 1 : 0;
     most = std::max(most, frame.renewed());
   }
-  const std::string when = fmt::format("beyond {:g} times what is uncovered at rest", options.follower.renewal_factor);
+  const std::string when = fmt::format("beyond {:g} times what is uncovered at rest, in a region or in all",
+                                       options.follower.renewal_factor);
   if (frames == 0) return "no ball; " + when;
   return fmt::format("{} times a ball, in {} {}, at most {} in one; {}", grouped(balls), grouped(frames),
                      frames == 1 ? "frame" : "frames", grouped(most), when);
@@ -118,15 +119,25 @@ std::string cover_lines(const MotionRecord& record, bool closed) {
   return text;
 }
 
-/// An upper bound of the balls' volume outside, over that of the solid, in the worst frame.
+/// The balls' volume outside, over that of the solid, in the worst frame: an upper bound, and the estimate.
 std::string outside_text(const MotionRecord& record) {
-  double worst = 0;
+  double worst = 0, most = -1, error = 0;
   for (const FollowedFrame& frame : record.frames) {
-    if (frame.measures.solid_volume > 0) {
-      worst = std::max(worst, frame.measures.outside_bound / frame.measures.solid_volume);
-    }
+    if (!(frame.measures.solid_volume > 0)) continue;
+    const double percent = 100 / frame.measures.solid_volume;
+    worst = std::max(worst, percent * frame.measures.outside_bound);
+    if (!frame.outside || percent * frame.outside->volume <= most) continue;
+    most = percent * frame.outside->volume;
+    error = percent * frame.outside->standard_error;
   }
-  return fmt::format("at most {:.2f} % of the solid, in any frame", 100 * worst);
+  std::string text = fmt::format("at most {:.2f} % of the solid, in any frame", worst);
+  if (most >= 0) text += fmt::format("; in the worst one {:.2g} % by samples (standard error {:.1g} %)", most, error);
+  return text;
+}
+
+/// Milliseconds below a second.
+std::string each_text(double seconds) {
+  return seconds < 0.9995 ? fmt::format("{:.3g} ms", 1e3 * seconds) : duration(seconds);
 }
 
 /// How many balls joints alone keep inside, and how far all of them would reach out with their radii at rest: those
@@ -194,7 +205,7 @@ std::string follow_summary(const FollowOptions& options, const MotionRecord& rec
   }
   const std::size_t moved = record.frames.size() - 1;
   if (moved > 0) {
-    text += labelled("each", fmt::format("{:.3g} ms a frame", 1e3 * update_seconds / static_cast<double>(moved)));
+    text += labelled("each", each_text(update_seconds / static_cast<double>(moved)) + " a frame");
   }
   text += labelled("time", times_text(times, options.verbose));
   return text + written_text(files, false);

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "cli/follow/frame_depths.h"
 #include "cli/follow/moving_balls.h"
 #include "medial_vk/sphere_proofs.h"
+#include "outside_samples/outside_samples.h"
 #include "reference_bridge/check_balls.h"
 
 namespace medial_vk::cli {
@@ -12,7 +14,8 @@ namespace {
 
 class InsideBalls final : public MovingBalls {
  public:
-  InsideBalls(Follower follower, const FollowOptions& options) : follower_(std::move(follower)), options_(options) {}
+  InsideBalls(Follower follower, const FollowOptions& options, double rest_side)
+      : follower_(std::move(follower)), options_(options), protrusion_(options.follower.protrusion * rest_side) {}
 
   Status update(std::span<const Point> vertices) override {
     if (options_.from_rest) {
@@ -41,6 +44,18 @@ class InsideBalls final : public MovingBalls {
     return {};
   }
 
+  Status estimate_outside(std::span<const Point> vertices, IndexedMesh& mesh, FollowedFrame& frame) const override {
+    constexpr std::size_t kSamples = 100'000;
+    if (options_.follower.rule != FollowRule::kPublished || !mesh.prepared().report.closed) return {};
+    const OutsideSamples samples(frame.balls, protrusion_, kSamples);
+    std::vector<double> depths(samples.points().size());
+    if (Status status = depths_in_frame(vertices, samples.points(), options_.follower.threads, mesh, depths); !status) {
+      return status;
+    }
+    frame.outside = samples.estimate(depths);
+    return {};
+  }
+
   CheckReport check(const PreparedMesh& frame, std::span<const Ball> balls) const override {
     return check_balls_inside(frame, balls);
   }
@@ -48,6 +63,7 @@ class InsideBalls final : public MovingBalls {
  private:
   Follower follower_;
   const FollowOptions& options_;
+  double protrusion_;  // in mesh units
 };
 
 }  // namespace
@@ -67,7 +83,8 @@ Result<std::unique_ptr<MovingBalls>> balls_that_stay_inside(const FollowOptions&
     return Error{ErrorCode::kInvalidMesh,
                  fmt::format("{}: no ball is known to be inside the open mesh at rest", options.rest)};
   }
-  return std::unique_ptr<MovingBalls>(std::make_unique<InsideBalls>(std::move(follower).value(), options));
+  return std::unique_ptr<MovingBalls>(
+      std::make_unique<InsideBalls>(std::move(follower).value(), options, mesh.longest_side()));
 }
 
 }  // namespace medial_vk::cli

@@ -27,6 +27,9 @@ class MovingBalls {
   virtual Status describe(FollowedFrame& frame) const = 0;
   /// Sets its distances between surface and balls, where they are known; `mesh` is moved there.
   virtual Status measure_distances(std::span<const Point> vertices, IndexedMesh& mesh, FollowedFrame& frame) const = 0;
+  /// Sets what samples say of the balls' volume outside the solid, where they may reach out and the mesh is closed;
+  /// `mesh` is moved there.
+  virtual Status estimate_outside(std::span<const Point> vertices, IndexedMesh& mesh, FollowedFrame& frame) const = 0;
   /// By the reference: the contract of the balls in a frame.
   virtual CheckReport check(const PreparedMesh& frame, std::span<const Ball> balls) const = 0;
 };

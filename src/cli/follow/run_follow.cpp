@@ -162,6 +162,7 @@ class FollowRun {
                                                                       : "tangent";
     record_.frames_per_second = options_.frames_per_second;
     record_.has_volume = encloses_volume(mesh_->prepared().report);
+    record_.estimates_outside = !record_.covers && options_.follower.rule == FollowRule::kPublished;
     record_.renews = options_.follower.renewed > 0;
     record_.triangles = mesh_->prepared().mesh.triangles;
     Stopwatch stopwatch;
@@ -219,6 +220,7 @@ class FollowRun {
     if (writes_table(options_)) {
       if (Status status = follower_->measure_distances(vertices, *mesh_, frame); !status) return status;
     }
+    if (Status status = follower_->estimate_outside(vertices, *mesh_, frame); !status) return status;
     if (options_.check) check(vertices, frame);
     if (keeps_vertices && (!options_.html.empty() || !options_.picture.empty())) {
       for (const Point& p : vertices) {

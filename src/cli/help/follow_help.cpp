@@ -82,10 +82,10 @@ Output:
   -o, --output FILE     may be given several times (default: REST.follow.npz)
                         .npz: the balls of all frames, frames x balls x 4
                         .glb: balls as an animation
-                        .csv: a line per frame: volumes, the greatest distance
-                        from the surface to the balls (cover: from the balls to
-                        the solid), and the number of balls in each state; "-":
-                        that table on standard output
+                        .csv: a line per frame: volumes, the one-sided Hausdorff
+                        distance from the surface to the balls (cover: from the
+                        balls to the solid), and the number of balls in each
+                        state; "-": that table on standard output
       --picture FILE    a .png with up to twelve frames side by side
       --html FILE       a page that plays the motion
       --rig FILE        the balls bound to the joints of the animation

@@ -23,9 +23,18 @@ std::string number_or_nothing(double value) { return std::isfinite(value) ? fmt:
 std::string inside_numbers(const MotionRecord& record, const FollowedFrame& frame) {
   const FollowMeasures& m = frame.measures;
   const std::string gap = frame.gap ? fmt::format("{},{}", frame.gap->lower, frame.gap->upper) : ",";
-  if (!record.has_volume) return fmt::format(",{},,{},{}", m.ball_volume, m.outside_bound, gap);
+  std::string outside = fmt::format("{}", m.outside_bound);
+  if (record.estimates_outside) {
+    outside += frame.outside ? fmt::format(",{},{}", frame.outside->volume, frame.outside->standard_error) : ",,";
+  }
+  if (!record.has_volume) return fmt::format(",{},,{},{}", m.ball_volume, outside, gap);
   return fmt::format("{},{},{},{},{}", number_or_nothing(m.solid_volume), m.ball_volume,
-                     number_or_nothing(frame.uncovered_percent()), m.outside_bound, gap);
+                     number_or_nothing(frame.uncovered_percent()), outside, gap);
+}
+
+std::string inside_names(const MotionRecord& record) {
+  return fmt::format("uncovered_percent,outside_bound,{}gap_lower,gap_upper",
+                     record.estimates_outside ? "outside_estimate,outside_error," : "");
 }
 
 std::string cover_numbers(const MotionRecord& record, const CoveredFrame& cover) {
@@ -41,7 +50,7 @@ std::string cover_numbers(const MotionRecord& record, const CoveredFrame& cover)
 
 std::string encode_motion_csv(const MotionRecord& record) {
   std::string csv = "frame,name,time,solid_volume,ball_volume,";
-  csv += record.covers ? "added_percent,reach_out_bound,proved" : "uncovered_percent,outside_bound,gap_lower,gap_upper";
+  csv += record.covers ? "added_percent,reach_out_bound,proved" : inside_names(record);
   for (const char* const state : state_names(record)) csv += fmt::format(",{}", state);
   csv += record.renews ? ",renewed\n" : "\n";
   for (std::size_t i = 0; i < record.frames.size(); ++i) {

@@ -24,6 +24,12 @@ void add_inside_columns(NpzWriter& out, const MotionRecord& record) {
              [&](const FollowedFrame& frame) { return record.has_volume ? frame.measures.solid_volume : kNoNumber; });
   add_column(out, "ball_volume", record, [](const FollowedFrame& frame) { return frame.measures.ball_volume; });
   add_column(out, "outside_bound", record, [](const FollowedFrame& frame) { return frame.measures.outside_bound; });
+  if (record.estimates_outside) {
+    add_column(out, "outside_estimate", record,
+               [](const FollowedFrame& frame) { return frame.outside ? frame.outside->volume : kNoNumber; });
+    add_column(out, "outside_error", record,
+               [](const FollowedFrame& frame) { return frame.outside ? frame.outside->standard_error : kNoNumber; });
+  }
   add_column(out, "gap_lower", record,
              [](const FollowedFrame& frame) { return frame.gap ? frame.gap->lower : kNoNumber; });
   add_column(out, "gap_upper", record,

@@ -14,6 +14,7 @@
 #include "medial_vk/follower.h"
 #include "medial_vk/mesh.h"
 #include "medial_vk/sphere_measures.h"
+#include "outside_samples/outside_samples.h"
 
 namespace medial_vk {
 
@@ -41,10 +42,12 @@ struct FollowedFrame {
   std::string short_name;             ///< The same, but a file without its folder and its extension.
   double time = 0;                    ///< Seconds since the rest pose.
   std::vector<Ball> balls;            ///< Radius 0: lost in this frame, or of a cover that does without it.
-  std::optional<CoveredFrame> cover;  ///< With MotionRecord::covers, instead of the next four.
+  std::optional<CoveredFrame> cover;  ///< With MotionRecord::covers, instead of the next five.
   std::vector<FollowState> states;
   std::vector<FollowOrigin> origins;  ///< Empty unless balls may be chosen anew (MotionRecord::renews).
   FollowMeasures measures;
+  /// Of the balls' volume outside the solid, below FollowMeasures::outside_bound; empty: not estimated.
+  std::optional<OutsideEstimate> outside;
   std::optional<Bounds> gap;  ///< The greatest distance from points of the boundary to the balls.
   bool is_mirrored = false;   ///< The mesh is closed, and its signed volume is negative.
   /// Of the vertices of the prepared mesh, if a picture or a page shows the frame; else empty.
@@ -70,6 +73,7 @@ struct MotionRecord {
   /// The mesh at rest is closed, and no faces cross or lie inside: its signed volume is that of the solid. Otherwise no
   /// volume of a solid is written, nor of a frame whose solid_volume() is NaN.
   bool has_volume = false;
+  bool estimates_outside = false;     ///< Balls may reach out of the solid: files say how much does, by samples.
   bool renews = false;                ///< Balls may be chosen anew in a frame: files say where.
   std::vector<Triangle> triangles;    ///< Of the prepared mesh.
   std::vector<FollowedFrame> frames;  ///< The rest pose first. All have the same number of balls.

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "unit/cover_following/cover_example.h"
@@ -74,6 +76,49 @@ TEST(CoverOfAnyFrame, PartsThatCrossAreCovered) {
   }
   ASSERT_TRUE(follower.update(frame).ok());
   expect_cover(follower, example.mesh, frame, "crossing");
+}
+
+/// The frames of a motion with some that a division of the surface should not be made for.
+std::vector<std::pair<std::string, CoverFrame>> frames_with_faulty_ones(const CoverFrame& rest) {
+  CoverFrame flat = rest, crossing = rest;
+  for (Point& p : flat) p[2] = 0;
+  for (Point& p : crossing) p = p[1] > 0.5 ? Point{0.2 - p[0], 0.9 - p[1], p[2] + 0.1} : p;
+  return {{"bent", test::moved_vertices(rest, test::Motion::kBend, 0.5)},
+          {"flat", flat},
+          {"after the flat one", test::moved_vertices(rest, test::Motion::kTwist, 1)},
+          {"crossing", crossing},
+          {"after the crossing one", test::moved_vertices(rest, test::Motion::kTwist, 0.5)},
+          {"rest", rest}};
+}
+
+TEST(CoverOfAnyFrame, TighteningInFaultyFramesMakesNoLaterCoverLarger) {
+  for (const CoverExample& example : {covered_torus(), covered_l_shape()}) {
+    for (const std::uint32_t steps : {0u, 1u}) {
+      CoverFollower loose = example.follower({.steps = steps}), tight = example.follower({.steps = steps});
+      for (const auto& [name, frame] : frames_with_faulty_ones(example.rest())) {
+        ASSERT_TRUE(loose.update(frame).ok());
+        ASSERT_TRUE(tight.update(frame).ok());
+        ASSERT_TRUE(tight.tighten().ok());
+        EXPECT_LE(tight.measure().value().ball_volume, loose.measure().value().ball_volume) << name;
+        EXPECT_EQ(tight.state(), CoverState::kSolid) << name;
+        if (name != "flat") expect_cover(tight, example.mesh, frame, name);  // whose winding numbers are all 0
+      }
+    }
+  }
+}
+
+// The same frame gives the same cover, whatever made the division of the surface that it begins with.
+TEST(CoverOfAnyFrame, TighteningRecoversFromAFaultyFrame) {
+  const CoverExample example = covered_torus();
+  const auto frames = frames_with_faulty_ones(example.rest());
+  CoverFollower seen = example.follower(), fresh = example.follower();
+  ASSERT_TRUE(seen.update(frames[1].second).ok());
+  ASSERT_TRUE(seen.tighten().ok());
+  for (CoverFollower* const follower : {&seen, &fresh}) {
+    ASSERT_TRUE(follower->update(frames[2].second).ok());
+    ASSERT_TRUE(follower->tighten().ok());
+  }
+  EXPECT_EQ(difference_of(seen.balls(), fresh.balls()), 0);
 }
 
 TEST(CoverOfAnyFrame, OfAnOpenMeshTheSurfaceIsHeld) {

@@ -93,6 +93,27 @@ TEST(MotionCsv, BallsChosenAnewAreCountedIfThereMayBeAny) {
   EXPECT_FALSE(read_npz(encode_motion_npz(motion_example()).value(), "motion").value().contains("origins"));
 }
 
+TEST(MotionFiles, WhatReachesOutByThePublishedRuleIsEstimated) {
+  MotionRecord record = motion_example();
+  record.rule = "published";
+  record.estimates_outside = true;
+  record.frames[0].outside = OutsideEstimate{0, 0.25};
+  record.frames[1].outside = OutsideEstimate{0.0625, 0.5};
+  std::string names = kNames;
+  names.insert(names.find("gap_lower"), "outside_estimate,outside_error,");
+  EXPECT_EQ(encode_motion_csv(record), names +
+                                           "0,rest,0,8,6,25,0,0,0.25,0.5,0.75,2,0,0,0\n"
+                                           "1,a.obj,0.5,10,5,50,0.125,0.0625,0.5,1,1.25,1,1,0,0\n"
+                                           "2,\"the \"\"last\"\", bent.obj\",1,16,0,100,0,,,,,0,0,1,1\n");
+  const auto arrays = read_npz(encode_motion_npz(record).value(), "motion").value();
+  const std::vector<double> estimates = doubles_of(arrays.at("outside_estimate"));
+  EXPECT_EQ(estimates[1], 0.0625);
+  EXPECT_TRUE(std::isnan(estimates[2])) << "not estimated";
+  EXPECT_EQ(doubles_of(arrays.at("outside_error"))[0], 0.25);
+  const auto without = read_npz(encode_motion_npz(motion_example()).value(), "motion").value();
+  EXPECT_FALSE(without.contains("outside_estimate"));
+}
+
 TEST(MotionNpz, OfACoverSaysWhatIsProved) {
   const auto arrays = read_npz(encode_motion_npz(test::cover_motion_example()).value(), "motion").value();
   EXPECT_EQ(arrays.at("balls").shape, (std::vector<std::uint64_t>{3, 2, 4}));

@@ -18,6 +18,14 @@ std::size_t index_of(std::uint32_t ball, const std::array<std::uint32_t, 4>& bal
   return static_cast<std::size_t>(std::find(balls.begin(), balls.end(), ball) - balls.begin());
 }
 
+/// As resize(), which makes room for no more than `size` where a vector is short: cells that are each a little larger
+/// than all before would allocate again and again.
+template <class T>
+void resize_amply(std::vector<T>& values, std::size_t size) {
+  if (size > values.capacity()) values.reserve(std::max(size, 2 * values.capacity()));
+  values.resize(size);
+}
+
 }  // namespace
 
 void PowerCell::start_empty(std::uint32_t i) {
@@ -123,7 +131,7 @@ bool PowerCell::cuts(const Corner& corner, const Bisector& plane, double height)
 
 /// Returns false if there are none.
 bool PowerCell::find_cut_corners(const Bisector& plane) {
-  heights_.resize(corners_.size());
+  resize_amply(heights_, corners_.size());
   double greatest = -HUGE_VAL;
   for (std::size_t c = 0; c < corners_.size(); ++c) {
     const Corner& corner = corners_[c];
@@ -133,7 +141,7 @@ bool PowerCell::find_cut_corners(const Bisector& plane) {
   const double doubt = plane.slack + 8 * DBL_EPSILON * (farthest_ + std::fabs(plane.offset));
   if (greatest < -doubt) return false;
   cut_.clear();
-  is_cut_.resize(corners_.size());
+  resize_amply(is_cut_, corners_.size());
   for (std::uint32_t c = 0; c < corners_.size(); ++c) {
     is_cut_[c] = cuts(corners_[c], plane, heights_[c]);
     if (is_cut_[c]) cut_.push_back(c);
@@ -184,8 +192,8 @@ void PowerCell::add_corners(std::uint32_t plane) {
 }
 
 void PowerCell::link_new_corners(std::uint32_t plane) {
-  leaving_.resize(planes_.size());
-  arriving_.resize(planes_.size());
+  resize_amply(leaving_, planes_.size());
+  resize_amply(arriving_, planes_.size());
   const auto slot_of = [&](const Corner& corner) {
     return corner.planes[0] == plane ? 0u : corner.planes[1] == plane ? 1u : 2u;
   };
@@ -204,7 +212,7 @@ void PowerCell::link_new_corners(std::uint32_t plane) {
 
 /// Closes the gaps with the last corners.
 void PowerCell::remove_cut_corners() {
-  is_cut_.resize(corners_.size(), 0);
+  resize_amply(is_cut_, corners_.size());  // the new ones are not cut
   for (std::size_t k = cut_.size(); k-- > 0;) {
     const std::uint32_t gap = cut_[k];
     const auto last = static_cast<std::uint32_t>(corners_.size() - 1);
