@@ -134,6 +134,56 @@ TEST_F(ClearanceCommand, TheSceneIsInTheFrameOfTheRoot) {
   EXPECT_EQ(lines[0].second, "hand");
 }
 
+/// Each file keeps its name, and the summary counts the scene as one link: base and hand, slider and hand with it.
+TEST_F(ClearanceCommand, FilesOfASceneAreOneLink) {
+  Mesh left = test::make_box({1, 1, 1});
+  test::translate(left, {-4, 0, 0});
+  test::write_file(path("left.obj"), test::to_obj(left));
+  test::write_file(path("both.csv"), "slide,turn,reach\n0,0,2.5\n0,0,-4\n0,0,-5\n");
+  const std::vector<std::string> arguments = {"rail.urdf", "--joints", "both.csv", "--scene", "left.obj",
+                                              "--scene",   "wall.obj", "--check",  "-o",      "c.csv"};
+  const auto with = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> all = arguments;
+    all.insert(all.end(), options.begin(), options.end());
+    const ToolResult result = clearance(all);
+    EXPECT_EQ(result.exit_code, 0) << result.err << result.out;
+    EXPECT_THAT(result.err, HasSubstr("3 compared; "));
+    return clearances_in(read_file(path("c.csv")));
+  };
+  const std::vector<ClearanceLine> exact = with({"--picture", "p.png"});
+  ASSERT_EQ(exact.size(), 3u);
+  const char* const names[] = {"wall.obj", "left.obj", "left.obj"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(exact[i].first, "hand");
+    EXPECT_EQ(exact[i].second, names[i]);
+  }
+  EXPECT_NEAR(exact[0].upper, 0.5, kRounding);
+  EXPECT_NEAR(exact[1].upper, 0.5, kRounding);
+  EXPECT_EQ(exact[2].state, "hit");
+  const std::vector<ClearanceLine> by_balls = with({"--balls", "2", "--backend", "cpu"});
+  ASSERT_EQ(by_balls.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(by_balls[i].second, names[i]);
+}
+
+TEST_F(ClearanceCommand, ALimitOfZeroDecidesCollisionsAlone) {
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{}, {"--balls", "1", "--backend", "cpu", "--decide"}}) {
+    std::vector<std::string> arguments = {"rail.urdf", "--joints", "q.csv",   "--scene", "wall.obj",
+                                          "--limit",   "0",        "--check", "-o",      "c.csv"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    arguments.insert(arguments.end(), {"--html", "p.html", "--row", "3"});
+    const ToolResult result = clearance(arguments);
+    ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
+    const std::vector<ClearanceLine> lines = clearances_in(read_file(path("c.csv")));
+    ASSERT_EQ(lines.size(), 4u);
+    EXPECT_THAT(states_in(read_file(path("c.csv"))), ElementsAre("free", "hit", "free", "hit"));
+    EXPECT_GT(lines[2].lower, 0);
+    EXPECT_LT(lines[2].lower, 1e-300);
+    EXPECT_EQ(lines[3].second, "wall.obj");
+    EXPECT_THAT(read_file(path("p.html")), HasSubstr("Configuration 3 of 4: the solids have no common point."));
+  }
+}
+
 TEST_F(ClearanceCommand, AnSrdfNamesThePairsThatAreLeftOut) {
   const ToolResult found = clearance({"rail.urdf", "--joints", "q.csv", "--write-srdf", "r.srdf", "-o", "c.csv"});
   ASSERT_EQ(found.exit_code, 0) << found.err;
