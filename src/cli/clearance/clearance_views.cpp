@@ -28,7 +28,8 @@ void append_solids(const RobotAndScene& all, std::span<const Pose> poses, std::u
     const std::size_t before = picture.mesh.triangles.size();
     for (std::size_t i = 0; i < all.solids.around.size(); ++i) {
       const LinkSolid& solid = all.solids.around[i];
-      if (is_wanted(all.owner_of(i))) append_mesh(solid.mesh.prepared().mesh, poses[solid.link] * solid.pose, picture.mesh);
+      if (is_wanted(all.owner_of(i)))
+        append_mesh(solid.mesh.prepared().mesh, poses[solid.link] * solid.pose, picture.mesh);
     }
     return picture.mesh.triangles.size() - before;
   };

@@ -61,7 +61,7 @@ Status load_scene_body(const std::string& path, const ClearanceOptions& options,
     return file_error(path, "the file has no balls that cover the mesh, and --balls needs them");
   }
   all.balls_of_files[static_cast<std::uint32_t>(all.names.size())] = {std::move(body.value().inside),
-                                                                 std::move(body.value().cover)};
+                                                                      std::move(body.value().cover)};
   add_scene(body.value().mesh, path, all);
   return {};
 }

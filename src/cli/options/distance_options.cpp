@@ -52,8 +52,9 @@ Status check_balls(const DistanceCommandOptions& options) {
     return usage_error(
         fmt::format("--balls: '{}' is no body file; medial-vk spheres MESH --contract both makes one", file));
   }
-  const std::pair<const char*, bool> of_triangles[] = {
-      {"--tolerance", options.tolerance > 0}, {"--limit", options.limit <= kGreatestLength}, {"--surfaces", options.surfaces}};
+  const std::pair<const char*, bool> of_triangles[] = {{"--tolerance", options.tolerance > 0},
+                                                       {"--limit", options.limit <= kGreatestLength},
+                                                       {"--surfaces", options.surfaces}};
   for (const auto& [name, is_given] : of_triangles) {
     if (is_given) return usage_error(fmt::format("--balls answers without triangles: it has no {}", name));
   }
