@@ -85,6 +85,15 @@ TEST_F(CheckDistances, SlightlyWrongOnesFail) {
   EXPECT_EQ(failures(1 + 1e-11, DistanceBounds{0, 0, {}, {}}), "h");
 }
 
+/// With a limit of 0 the lower end is little above 0.
+TEST_F(CheckDistances, FreeOfALimitOfZeroIsTested) {
+  DistanceOptions options;
+  options.limit = 0;
+  EXPECT_EQ(failures(3, between(1e-14, 2.5, 3), options), "");
+  EXPECT_EQ(failures(0.5, between(1e-14, 0.5, 0.5), options), "f");
+  EXPECT_EQ(failures(1, between(1e-14, 1e-13, 1), options), "");  // they touch: a matter of rounding
+}
+
 TEST_F(CheckDistances, WrongPointsFail) {
   Distance off_a = between(2, 2, 3), off_b = between(2, 2, 3), apart = between(2, 2, 3);
   off_a.on_a[0] = 1.01;
