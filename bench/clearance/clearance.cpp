@@ -1,5 +1,5 @@
-// An arm of seven links among obstacles: configurations a second on one core, self-collision and scene, by balls and by
-// triangles. Prints rows of a markdown table; bench/run_clearance runs it.
+// An arm of seven links among obstacles: configurations a second on one core, self-collision and scene, by balls and,
+// where these leave it open, by triangles. Prints rows of a markdown table; bench/run_clearance runs it.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -150,7 +150,8 @@ void measure_scene(const Arm& arm, std::vector<GroupPart> parts, const std::vect
   collisions.limit = exact_collisions.limit = 0;
   exact_collisions.exact = exact.exact = true;
   for (const Row& row : {Row{"balls: collision", collisions}, Row{"balls: least distance", nearest},
-                         Row{"triangles: collision", exact_collisions}, Row{"triangles: least distance", exact}}) {
+                         Row{"balls, then triangles: collision", exact_collisions},
+                         Row{"balls, then triangles: least distance", exact}}) {
     measure(group, poses, row, repeats);
   }
 }

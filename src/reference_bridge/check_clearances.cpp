@@ -52,22 +52,28 @@ class Solids {
   LeastOfPairs least(std::span<const Pose> poses) const {
     LeastOfPairs least;
     for (const SolidPair& pair : pairs_) {
-      const CheckedSolid &a = solids_[pair.a], &b = solids_[pair.b];
-      const Placement at_a = placement_of(poses[a.link]) * placement_of(a.pose);
-      const Placement at_b = placement_of(poses[b.link]) * placement_of(b.pose);
-      const reference::Motion motion = {at_a.rotation.transpose() * at_b.rotation,
-                                        at_a.rotation.transpose() * (at_b.shift - at_a.shift)};
-      const Sized &mesh_a = meshes_.at(a.mesh), &mesh_b = meshes_.at(b.mesh);
-      // As in check_distances.cpp, of the sizes of both meshes; the motions have some ten roundings of shifts each, and
-      // rotations are off by 1e-14 of them at most.
-      const double reach = mesh_a.size + mesh_b.size + shift_of(a.pose) + shift_of(b.pose);
-      least.rounding =
-          std::max(least.rounding, 1024 * 0x1p-53 * (4 * reach + shift_of(poses[a.link]) + shift_of(poses[b.link])));
-      const double surfaces = reference::nearest_of_meshes(mesh_a.mesh, mesh_b.mesh, motion).distance;
-      const bool is_hit = surfaces == 0 || reference::one_holds_the_other(mesh_a.mesh, mesh_b.mesh, motion);
-      least.distance = std::min(least.distance, is_hit ? 0 : surfaces);
+      const PlacedPair placed = place(pair, poses);
+      least.rounding = std::max(least.rounding, placed.rounding);
+      least.distance = std::min(least.distance, placed.distance());
     }
     return least;
+  }
+
+  /// Whether two solids have a common point that is not one of rounding: they still have one after each of six moves of
+  /// one solid, by twice the rounding along each axis, to and fro. Solids that only touch are parted by one of them: it
+  /// is off the direction in which they part by no more than the diagonal of a cube, and so parts them by 2 / sqrt(3)
+  /// of the rounding. (A solid that fits exactly into a hole of another one cannot be told from one that is too large.)
+  bool overlap(std::span<const Pose> poses) const {
+    return std::ranges::any_of(pairs_, [&](const SolidPair& pair) {
+      PlacedPair placed = place(pair, poses);
+      if (placed.distance() > 0) return false;
+      const Vector3d shift = placed.motion.shift;
+      for (int k = 0; k < 6; ++k) {
+        placed.motion.shift = shift + (k < 3 ? 2 : -2) * placed.rounding * Vector3d::Unit(k % 3);
+        if (placed.distance() > 0) return false;
+      }
+      return true;
+    });
   }
 
  private:
@@ -75,6 +81,32 @@ class Solids {
     reference::Mesh mesh;
     double size;
   };
+
+  struct PlacedPair {
+    const reference::Mesh& a;
+    const reference::Mesh& b;
+    reference::Motion motion;  ///< From the frame of b to that of a.
+    double rounding;
+
+    double distance() const {
+      const double surfaces = reference::nearest_of_meshes(a, b, motion).distance;
+      return surfaces == 0 || reference::one_holds_the_other(a, b, motion) ? 0 : surfaces;
+    }
+  };
+
+  PlacedPair place(const SolidPair& pair, std::span<const Pose> poses) const {
+    const CheckedSolid &a = solids_[pair.a], &b = solids_[pair.b];
+    const Placement at_a = placement_of(poses[a.link]) * placement_of(a.pose);
+    const Placement at_b = placement_of(poses[b.link]) * placement_of(b.pose);
+    const reference::Motion motion = {at_a.rotation.transpose() * at_b.rotation,
+                                      at_a.rotation.transpose() * (at_b.shift - at_a.shift)};
+    const Sized &mesh_a = meshes_.at(a.mesh), &mesh_b = meshes_.at(b.mesh);
+    // As in check_distances.cpp, of the sizes of both meshes; the motions have some ten roundings of shifts each, and
+    // rotations are off by 1e-14 of them at most.
+    const double reach = mesh_a.size + mesh_b.size + shift_of(a.pose) + shift_of(b.pose);
+    const double rounding = 1024 * 0x1p-53 * (4 * reach + shift_of(poses[a.link]) + shift_of(poses[b.link]));
+    return {mesh_a.mesh, mesh_b.mesh, motion, rounding};
+  }
 
   static double shift_of(const Pose& pose) { return to_eigen(pose.shift).norm(); }
 
@@ -123,7 +155,11 @@ CheckReport check_clearances(const CheckedSolids& solids, std::span<const Pose> 
     if (interval.upper < std::numeric_limits<double>::infinity()) {
       test(upper, of_inside.distance - interval.upper, of_inside.rounding, i);
     }
-    if (interval.lower > 0) test(free, of_around.distance == 0 ? interval.lower : 0, of_around.rounding, i);
+    if (!(interval.lower > 0)) continue;
+    double excess = of_around.distance == 0 ? interval.lower : 0;
+    // With a limit of 0, the lower end is above 0 and no more, and tells nothing.
+    if (excess > 0 && excess <= of_around.rounding && around.overlap(of_links)) excess = 2 * of_around.rounding;
+    test(free, excess, of_around.rounding, i);
   }
   return {{lower, upper, free, hit}};
 }

@@ -77,9 +77,7 @@ class DistanceCheck {
  private:
   /// Returns the rounding error of the distances.
   double test_interval(const reference::Motion& motion, double lower, double upper, std::size_t i) {
-    const double surfaces = reference::nearest_of_meshes(a_, b_, motion).distance;
-    const bool is_hit = surfaces == 0 || (!options_.surfaces_only && reference::one_holds_the_other(a_, b_, motion));
-    const double exact = is_hit ? 0 : surfaces;
+    const double exact = exact_distance(motion);
     // An error is 32 u S (nearest_triangles.cpp), of the balls' reaches, which are at most three times the coordinates.
     // The interval has six, and the reference fewer.
     const double error = 256 * 0x1p-53 * (4 * size_ + motion.shift.norm());
@@ -89,8 +87,27 @@ class DistanceCheck {
       return error;
     }
     upper_.test(exact - upper, error, i);
-    if (lower > 0) free_.test(is_hit ? lower : 0, error, i);
+    if (!(lower > 0)) return error;
+    double excess = exact == 0 ? lower : 0;
+    // With a limit of 0, the lower end is little above 0, and tells nothing.
+    if (excess > 0 && excess <= error && overlap(motion, error)) excess = 2 * error;
+    free_.test(excess, error, i);
     return error;
+  }
+
+  double exact_distance(const reference::Motion& motion) const {
+    const double surfaces = reference::nearest_of_meshes(a_, b_, motion).distance;
+    return surfaces == 0 || (!options_.surfaces_only && reference::one_holds_the_other(a_, b_, motion)) ? 0 : surfaces;
+  }
+
+  /// Whether the solids have a common point that is not one of rounding, as in check_clearances.cpp.
+  bool overlap(reference::Motion motion, double error) const {
+    const Vector3d shift = motion.shift;
+    for (int k = 0; k < 6; ++k) {
+      motion.shift = shift + (k < 3 ? 2 : -2) * error * Vector3d::Unit(k % 3);
+      if (exact_distance(motion) > 0) return false;
+    }
+    return true;
   }
 
   void test_points(const Distance& found, const reference::Motion& motion, double error, std::size_t i) {

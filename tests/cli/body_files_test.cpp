@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,10 +44,42 @@ class BodyFiles : public test::ToolTest {
 TEST_F(BodyFiles, AnswerByBallsAlone) {
   const test::ToolResult result = distance({"box.npz", "box.npz", "--poses", "poses.csv", "--balls", "--check"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, StartsWith("lower,upper,state\n"));
-  EXPECT_THAT(result.out, HasSubstr(",free\n0,"));
-  EXPECT_THAT(result.out, HasSubstr(",undecided\n0,0,hit\n"));
+  EXPECT_THAT(result.out, StartsWith("lower,upper,state,ax,ay,az,bx,by,bz\n"));
+  EXPECT_THAT(result.out, HasSubstr(",free,"));
+  EXPECT_THAT(result.out, HasSubstr(",undecided,"));
   EXPECT_THAT(result.err, HasSubstr("1 inside and 1 that cover it, proved again"));
+  // Points of the spheres around the middles of the boxes, on the line between them; of a hit one that both balls hold.
+  std::vector<std::vector<std::string>> lines;
+  std::istringstream text(result.out);
+  for (std::string line; std::getline(text, line);) {
+    std::istringstream in(line);
+    lines.emplace_back();
+    for (std::string word; std::getline(in, word, ',');) lines.back().push_back(word);
+    ASSERT_EQ(lines.back().size(), 9u) << line;
+  }
+  ASSERT_EQ(lines.size(), 4u);
+  constexpr double kRounding = 1e-15;  // some roundings of numbers below 4
+  for (std::size_t i = 1; i < 4; ++i) {
+    for (const std::size_t k : {4u, 5u, 7u, 8u}) EXPECT_NEAR(std::stod(lines[i][k]), 0.5, kRounding);
+  }
+  for (const auto& [line, x] : {std::pair(1, 3.0), {2, 1.2}}) {
+    EXPECT_NEAR(std::stod(lines[line][3]), 0.99, kRounding);
+    EXPECT_NEAR(std::stod(lines[line][6]), x + 0.01, kRounding);
+  }
+  EXPECT_EQ(lines[3][3], lines[3][6]);
+  EXPECT_GE(std::stod(lines[3][3]), 0.51);
+  EXPECT_LE(std::stod(lines[3][3]), 0.99);
+}
+
+/// There is no upper end, and no point that would prove one.
+TEST_F(BodyFiles, WithoutBallsInsideThereAreNoPoints) {
+  body_.inside.clear();
+  write("cover.npz", body_);
+  test::write_file(path("pose.csv"), "x,y,z\n3,0,0\n");
+  const test::ToolResult result =
+      distance({"cover.npz", "box.npz", "--balls", "--poses", "pose.csv", "--check", "-o", "d.csv"});
+  ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
+  EXPECT_THAT(test::read_file(path("d.csv")), testing::EndsWith(",inf,free,nan,nan,nan,nan,nan,nan\n"));
 }
 
 TEST_F(BodyFiles, OfOnePoseNameTheBallsThatDecide) {

@@ -1,5 +1,5 @@
-// `medial-vk clearance` with balls from outside: bodies that are kept in a folder, body files of the scene, and what
-// balls leave to triangles. Everything here runs without a Vulkan device.
+// `medial-vk clearance` from outside with a scene, with limits, and with balls: bodies that are kept in a folder, body
+// files of the scene, and what balls leave to triangles. Everything here runs without a Vulkan device.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "body_files/body_file.h"
+#include "clearance_command.h"
 #include "support/solids/mesh_files.h"
 #include "support/solids/solids.h"
 #include "tool_test.h"
@@ -18,9 +19,17 @@
 namespace medial_vk {
 namespace {
 
+using test::ClearanceCommand;
+using test::ClearanceLine;
+using test::clearances_in;
+using test::kClearanceRounding;
+using test::read_file;
+using test::states_in;
 using test::ToolResult;
 using testing::ContainsRegex;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::StartsWith;
 
 /// A sphere and four boxes, of which two are the same; hand and stand are 0.5 apart, and slide moves the hand away.
@@ -121,7 +130,7 @@ TEST_F(ClearanceBodies, AreReadByOtherCommands) {
   for (const char* stem : {"box", "primitive1"}) {
     const ToolResult result = run({"distance", kept(stem), "wall.npz", "--balls", "--check"});
     EXPECT_EQ(result.exit_code, 0) << result.err << result.out;
-    EXPECT_THAT(result.out, ContainsRegex(",free\n"));
+    EXPECT_THAT(result.out, ContainsRegex(",free,"));
   }
   const ToolResult again = by_balls({"--bodies", "kept", "--check"});
   EXPECT_EQ(again.exit_code, 0) << again.err << again.out;
@@ -230,6 +239,83 @@ TEST_F(ClearanceBodies, LeaveToTrianglesWhatTheyDoNotDecide) {
   EXPECT_THAT(result.err, ContainsRegex("states +2 free, 2 hit, 0 undecided\n"));
   EXPECT_THAT(result.err, ContainsRegex("decided +1 configuration by triangles, which balls left undecided\n"));
   EXPECT_THAT(test::read_file(path("p.png")), StartsWith("\x89PNG"));
+}
+
+TEST_F(ClearanceCommand, TheSceneIsInTheFrameOfTheRoot) {
+  const ToolResult result = clearance({"rail.urdf", "--joints", "q.csv", "--scene", "wall.obj", "-q"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, IsEmpty());
+  const std::vector<ClearanceLine> lines = clearances_in(result.out);
+  ASSERT_EQ(lines.size(), 4u);
+  EXPECT_EQ(lines[2].first, "hand");
+  EXPECT_EQ(lines[2].second, "wall.obj");
+  EXPECT_NEAR(lines[2].lower, 1, kClearanceRounding);
+  EXPECT_EQ(lines[3].state, "hit");
+  EXPECT_EQ(lines[0].second, "hand");
+}
+
+TEST_F(ClearanceCommand, FilesOfASceneAreOneLink) {
+  Mesh left = test::make_box({1, 1, 1});
+  test::translate(left, {-4, 0, 0});
+  test::write_file(path("left.obj"), test::to_obj(left));
+  test::write_file(path("both.csv"), "slide,turn,reach\n0,0,2\n0,0,-4\n0,0,-5\n");
+  const std::vector<std::string> arguments = {"rail.urdf", "--joints", "both.csv", "--scene", "left.obj",
+                                              "--scene",   "wall.obj", "--check",  "-o",      "c.csv"};
+  const auto with = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> all = arguments;
+    all.insert(all.end(), options.begin(), options.end());
+    const ToolResult result = clearance(all);
+    EXPECT_EQ(result.exit_code, 0) << result.err << result.out;
+    EXPECT_THAT(result.err, HasSubstr("3 compared; "));
+    return clearances_in(read_file(path("c.csv")));
+  };
+  const std::vector<ClearanceLine> exact = with({"--picture", "p.png"});
+  ASSERT_EQ(exact.size(), 3u);
+  const char* const names[] = {"wall.obj", "left.obj", "left.obj"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(exact[i].first, "hand");
+    EXPECT_EQ(exact[i].second, names[i]);
+  }
+  EXPECT_NEAR(exact[0].upper, 0.5, kClearanceRounding);
+  EXPECT_NEAR(exact[1].upper, 0.5, kClearanceRounding);
+  EXPECT_EQ(exact[2].state, "hit");
+  const std::vector<ClearanceLine> by_balls = with({"--balls", "1", "--backend", "cpu", "--resolution", "12"});
+  ASSERT_EQ(by_balls.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(by_balls[i].second, names[i]);
+}
+
+TEST_F(ClearanceCommand, ALimitOfZeroDecidesCollisionsAlone) {
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{}, {"--balls", "1", "--backend", "cpu", "--decide"}}) {
+    std::vector<std::string> arguments = {"rail.urdf", "--joints", "q.csv",   "--scene", "wall.obj",
+                                          "--limit",   "0",        "--check", "-o",      "c.csv"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    arguments.insert(arguments.end(), {"--html", "p.html", "--row", "3"});
+    const ToolResult result = clearance(arguments);
+    ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
+    const std::vector<ClearanceLine> lines = clearances_in(read_file(path("c.csv")));
+    ASSERT_EQ(lines.size(), 4u);
+    EXPECT_THAT(states_in(read_file(path("c.csv"))), ElementsAre("free", "hit", "free", "hit"));
+    EXPECT_GT(lines[2].lower, 0);
+    EXPECT_LT(lines[2].lower, 1e-300);
+    EXPECT_EQ(lines[3].second, "wall.obj");
+    EXPECT_THAT(read_file(path("p.html")), HasSubstr("Configuration 3 of 4: the solids have no common point."));
+  }
+}
+
+TEST_F(ClearanceCommand, ToleranceAndLimitWidenTheInterval) {
+  const std::vector<ClearanceLine> limited =
+      clearances_in(clearance({"rail.urdf", "--joints", "q.csv", "--limit", "1"}).out);
+  ASSERT_EQ(limited.size(), 4u);
+  EXPECT_NEAR(limited[0].upper, 0.5, kClearanceRounding);
+  EXPECT_GE(limited[3].lower, 1);
+  EXPECT_EQ(limited[3].state, "free");
+  const std::vector<ClearanceLine> tolerant =
+      clearances_in(clearance({"rail.urdf", "--joints", "q.csv", "--tolerance", "0.1"}).out);
+  ASSERT_EQ(tolerant.size(), 4u);
+  EXPECT_LE(tolerant[0].lower, 0.5);
+  EXPECT_GE(tolerant[0].upper, 0.5);
+  EXPECT_LE(tolerant[0].upper - tolerant[0].lower, 0.1 + kClearanceRounding);
 }
 
 }  // namespace

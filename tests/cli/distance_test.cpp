@@ -216,6 +216,17 @@ TEST_F(DistanceCommand, ToleranceAndLimitWidenTheInterval) {
   EXPECT_GE(limited.upper, exact.lower);
 }
 
+TEST_F(DistanceCommand, ALimitOfZeroDecidesCollisionsAlone) {
+  const ToolResult result =
+      distance({"box.obj", "box.obj", "--poses", "poses.csv", "--limit", "0", "--check", "-o", "d.csv"});
+  ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
+  const std::vector<DistanceLine> lines = lines_of(read_file(path("d.csv")));
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_THAT(states_of(read_file(path("d.csv"))), ElementsAre("free", "hit", "undecided"));
+  EXPECT_LE(lines[0].lower, 2);
+  EXPECT_GE(lines[0].upper, 2 - 1e-12);
+}
+
 TEST_F(DistanceCommand, CheckPassesAndItsTableIsTheResult) {
   const ToolResult result = distance({"box.obj", "box.obj", "--poses", "poses.csv", "--check", "-o", "d.csv"});
   ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
@@ -244,7 +255,7 @@ TEST_F(DistanceCommand, WrongUsageIs2) {
                                                     {"box.obj"},
                                                     {"box.obj", "inner.obj", "apart.obj"},
                                                     {"box.obj", "inner.obj", "--tolerance", "-1"},
-                                                    {"box.obj", "inner.obj", "--limit", "0"},
+                                                    {"box.obj", "inner.obj", "--limit", "-0.5"},
                                                     {"box.obj", "inner.obj", "-q", "-v"},
                                                     {"box.obj", "inner.obj", "-o", "d.json"},
                                                     {"box.obj", "inner.obj", "--poses", "p.csv", "-o", "p.csv"},

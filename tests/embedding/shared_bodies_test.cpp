@@ -15,6 +15,8 @@
 #include "medial_vk/body_group.h"
 #include "medial_vk/collisions.h"
 #include "medial_vk/indexed_mesh.h"
+#include "medial_vk/nearest_bodies.h"
+#include "medial_vk/penetration.h"
 #include "medial_vk/pose.h"
 #include "medial_vk/proximity.h"
 
@@ -75,8 +77,35 @@ void append_interval(double lower, double upper, std::vector<double>& out) {
   out.push_back(upper);
 }
 
+/// Those of one body among many, by balls and by triangles.
+void append_nearest(const PlacedBodies& among, const Body& body, const Pose& pose, std::vector<double>& out) {
+  for (const bool by_triangles : {false, true}) {
+    NearestBodiesOptions options;
+    options.count = 2;
+    options.by_triangles = by_triangles;
+    const NearBodies near = value_or_throw(nearest_bodies(among, body, pose, options));
+    for (const NearBody& found : near.bodies) {
+      out.push_back(static_cast<double>(found.index));
+      append_interval(found.lower, found.upper, out);
+    }
+    out.push_back(near.others);
+  }
+}
+
+/// Of few directions and columns, since the sanitizer makes it slow.
+void append_penetration(const Body& a, const Body& b, const Pose& pose, std::vector<double>& out) {
+  PenetrationOptions options;
+  options.directions = 16;
+  options.most_queries = 64;
+  options.most_columns = 64;
+  const Penetration found = value_or_throw(penetration(a, b, pose, options));
+  append_interval(found.depth_lower, found.depth_upper, out);
+  out.insert(out.end(), found.translation.begin(), found.translation.end());
+  append_interval(found.common_volume_lower, found.common_volume_of_balls, out);
+}
+
 /// Every query once for each pose, also as batches that take threads of their own.
-std::vector<double> all_queries(const Body& a, const Body& b, const BodyGroup& group) {
+std::vector<double> all_queries(const Body& a, const Body& b, const BodyGroup& group, const PlacedBodies& among) {
   std::vector<double> out;
   const std::vector<Pose> poses = poses_towards_each_other();
   Distance last;
@@ -106,6 +135,10 @@ std::vector<double> all_queries(const Body& a, const Body& b, const BodyGroup& g
   Status status = least_distances(group, of_links, least, {.exact = true}, {2});
   if (!status) throw std::runtime_error(status.error().message);
   for (const LeastDistance& of_pose : least) append_interval(of_pose.lower, of_pose.upper, out);
+  for (std::size_t i = 0; i < poses.size(); i += 3) {
+    append_nearest(among, b, poses[i], out);
+    append_penetration(a, b, poses[i], out);
+  }
   return out;
 }
 
@@ -114,7 +147,10 @@ TEST(SharedBodies, AreQueriedByManyThreadsAtOnce) {
   const std::vector<GroupPart> parts = {{a, 0}, {b, 1}};
   const std::vector<LinkPair> pairs = {{0, 1}};
   const BodyGroup group = value_or_throw(BodyGroup::create(parts, 2, pairs));
-  const std::vector<double> expected = all_queries(a, b, group);
+  const std::vector<PlacedBody> placed = {
+      {a, {}}, {b, make_pose({1, 1, 0}, {0, 0, 0})}, {a, make_pose({0, -2, 1}, {1, 0, 0})}};
+  const PlacedBodies among = value_or_throw(PlacedBodies::create(placed));
+  const std::vector<double> expected = all_queries(a, b, group, among);
   // Of six numbers for each pose alone: free ones come first, and hits last.
   ASSERT_GT(expected.size(), 240u);
   EXPECT_GT(expected[0], 1);
@@ -125,7 +161,7 @@ TEST(SharedBodies, AreQueriedByManyThreadsAtOnce) {
     for (std::size_t i = 0; i < kQueryingThreads; ++i) {
       threads.emplace_back([&, i] {
         const Body mine = i % 2 == 0 ? a : Body(a);  // copies share their trees
-        found[i] = all_queries(mine, b, group);
+        found[i] = all_queries(mine, b, group, among);
       });
     }
   }

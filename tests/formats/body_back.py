@@ -98,7 +98,13 @@ def main():
         np.savez(folder / "again.npz", **arrays)
         found = subprocess.run([tool, "distance", "again.npz", "box.body.npz", "--balls", "-q"], cwd=folder, check=True,
                                capture_output=True, text=True).stdout
-        assert found == "lower,upper,state\n0,0,hit\n", found
+        names, line = found.splitlines()
+        assert names == "lower,upper,state,ax,ay,az,bx,by,bz", found
+        assert line.startswith("0,0,hit,"), found
+        point = np.array(line.split(",")[3:], float)  # one of both, in a ball
+        assert (point[:3] == point[3:]).all(), found
+        distances = np.linalg.norm(arrays["inside_centre"] - point[:3], axis=1)
+        assert (distances <= arrays["inside_radius"]).any(), found
     print("body: ok")
 
 

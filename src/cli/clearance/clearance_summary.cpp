@@ -18,9 +18,9 @@ std::string least_text(std::span<const Clearance> clearances) {
     return a.upper < b.upper || (a.upper == b.upper && a.lower < b.lower);
   };
   const auto least = std::ranges::min_element(clearances, is_less);
-  const std::string interval = least->upper == 0 ? "0" : fmt::format("{:.9g} to {:.9g}", least->lower, least->upper);
   const std::string links = least->first.empty() ? "" : fmt::format(", {} and {}", least->first, least->second);
-  return fmt::format("{} (configuration {}{})", interval, least - clearances.begin() + 1, links);
+  return fmt::format("{} (configuration {}{})", interval_text(least->lower, least->upper),
+                     least - clearances.begin() + 1, links);
 }
 
 }  // namespace

@@ -21,19 +21,21 @@ Pose relative(const Pose& first, const Pose& second) {
   return inverse * second;
 }
 
-/// The solids of the two links come first, then all others.
-void append_solids(const RobotAndScene& all, std::span<const Pose> poses, const LinkPair& nearest,
-                   PairPicture& picture) {
+/// The solids of the two owners, links or files, come first, then all others.
+void append_solids(const RobotAndScene& all, std::span<const Pose> poses, std::uint32_t nearest_a,
+                   std::uint32_t nearest_b, PairPicture& picture) {
   const auto append = [&](const auto& is_wanted) {
     const std::size_t before = picture.mesh.triangles.size();
-    for (const LinkSolid& solid : all.solids.around) {
-      if (is_wanted(solid.link)) append_mesh(solid.mesh.prepared().mesh, poses[solid.link] * solid.pose, picture.mesh);
+    for (std::size_t i = 0; i < all.solids.around.size(); ++i) {
+      const LinkSolid& solid = all.solids.around[i];
+      if (is_wanted(all.owner_of(i)))
+        append_mesh(solid.mesh.prepared().mesh, poses[solid.link] * solid.pose, picture.mesh);
     }
     return picture.mesh.triangles.size() - before;
   };
-  picture.triangles_of_a = append([&](std::uint32_t link) { return link == nearest.a; });
-  picture.triangles_of_b = append([&](std::uint32_t link) { return link == nearest.b; });
-  append([&](std::uint32_t link) { return link != nearest.a && link != nearest.b; });
+  picture.triangles_of_a = append([&](std::uint32_t owner) { return owner == nearest_a; });
+  picture.triangles_of_b = append([&](std::uint32_t owner) { return owner == nearest_b; });
+  append([&](std::uint32_t owner) { return owner != nearest_a && owner != nearest_b; });
 }
 
 Status add_points(bool by_balls, const PlacedBody& a, const PlacedBody& b, PairPicture& picture) {
@@ -65,16 +67,17 @@ Result<PairPicture> picture_of(const ClearanceOptions& options, const ClearanceV
   if (view.clearances.size() > 1) picture.title = fmt::format("configuration {}: {}", shown + 1, picture.title);
   picture.is_hit = interval.collision == Collision::kHit;
   if (pair.a == PartPair::kNone) {  // nothing is compared, or all is beyond the limit
-    append_solids(view.all, poses, {~std::uint32_t{0}, ~std::uint32_t{0}}, picture);
+    append_solids(view.all, poses, ~std::uint32_t{0}, ~std::uint32_t{0}, picture);
     picture.name_a = picture.name_b = "";
     return picture;
   }
   const std::span<const GroupPart> parts = group.parts();
-  if (parts[pair.a].link > parts[pair.b].link) std::swap(pair.a, pair.b);
+  if (view.all.owner_of(pair.a) > view.all.owner_of(pair.b)) std::swap(pair.a, pair.b);
+  const std::uint32_t owner_a = view.all.owner_of(pair.a), owner_b = view.all.owner_of(pair.b);
   const GroupPart &a = parts[pair.a], &b = parts[pair.b];
-  append_solids(view.all, poses, {a.link, b.link}, picture);
-  picture.name_a = view.all.names[a.link];
-  picture.name_b = view.all.names[b.link];
+  append_solids(view.all, poses, owner_a, owner_b, picture);
+  picture.name_a = view.all.names[owner_a];
+  picture.name_b = view.all.names[owner_b];
   picture.has_points = std::isfinite(interval.upper);
   const Pose at_a = poses[a.link] * a.pose, at_b = poses[b.link] * b.pose;
   if (Status status = add_points(by_balls, {a.body, at_a}, {b.body, at_b}, picture); !status) return status.error();

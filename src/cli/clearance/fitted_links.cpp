@@ -14,9 +14,10 @@
 namespace medial_vk::cli {
 namespace {
 
-Part part_of(const LinkSolid& solid, const RobotAndScene& all) {
+/// `number` is that of the solid.
+Part part_of(const LinkSolid& solid, std::size_t number, const RobotAndScene& all) {
   Part part;
-  part.link = all.names[solid.link];
+  part.link = all.names[all.owner_of(number)];
   part.name = solid.name;
   part.pose = solid.pose;
   part.ball = solid.ball;
@@ -54,12 +55,12 @@ Result<std::vector<std::vector<Ball>>> fit(const std::vector<Part>& parts, const
 std::string path_in(const std::string& folder, const std::string& name) { return folder + "/" + name; }
 
 /// The solids of a link are consecutive: calls with the numbers of each link's first solid and of the one behind its
-/// last.
+/// last, likewise for each file of the scene.
 template <class Call>
 Status for_each_link(const RobotAndScene& all, const Call& call) {
-  const std::vector<LinkSolid>& solids = all.solids.around;
-  for (std::size_t begin = 0, end = 0; begin < solids.size(); begin = end) {
-    for (end = begin; end < solids.size() && solids[end].link == solids[begin].link;) ++end;
+  const std::size_t count = all.solids.around.size();
+  for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
+    for (end = begin; end < count && all.owner_of(end) == all.owner_of(begin);) ++end;
     if (Status status = call(begin, end); !status) return status;
   }
   return {};
@@ -72,7 +73,7 @@ Status find_balls(const RobotAndScene& all, const ClearanceOptions& of_run, std:
   std::size_t read = 0;
   for (std::size_t i = begin; i < end; ++i) {
     const LinkSolid& solid = all.solids.around[i];
-    if (const auto of_file = all.balls_of_files.find(solid.link); of_file != all.balls_of_files.end()) {
+    if (const auto of_file = all.balls_of_files.find(all.owner_of(i)); of_file != all.balls_of_files.end()) {
       found.push_back(of_file->second);
     } else if (solid.ball && end - begin <= of_run.balls) {
       found.push_back({{*all.solids.inside[i].ball}, {*solid.ball}});
@@ -133,8 +134,8 @@ Status fit_missing_balls(const RobotAndScene& all, const ClearanceOptions& of_ru
   std::vector<Part> closed, around;
   around.reserve(numbers.size());
   for (const std::size_t i : numbers) {
-    if (is_closed(all.solids.inside[i])) closed.push_back(part_of(all.solids.inside[i], all));
-    around.push_back(part_of(all.solids.around[i], all));
+    if (is_closed(all.solids.inside[i])) closed.push_back(part_of(all.solids.inside[i], i, all));
+    around.push_back(part_of(all.solids.around[i], i, all));
   }
   PartFitOptions options;
   options.count_per_link = of_run.balls;

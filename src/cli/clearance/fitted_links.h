@@ -30,7 +30,7 @@ struct BallsOfSolids {
 Result<BallsOfSolids> known_balls(const RobotAndScene& all, const ClearanceOptions& of_run, Progress& progress);
 
 /// Fits up to `of_run.balls` balls inside the solids of each link whose balls are not known, and as many that cover
-/// them, with proof; the files of the scene are further links, and links of the same solids are fitted once. A mesh
+/// them, with proof; each file of the scene counts as a link, and links of the same solids are fitted once. A mesh
 /// that is not closed encloses nothing and has a cover alone. Without a context, the CPU reference finds the medial
 /// points. Errors: those of fit_parts().
 Status fit_missing_balls(const RobotAndScene& all, const ClearanceOptions& of_run, std::optional<Context>& context,

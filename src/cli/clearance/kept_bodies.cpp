@@ -61,17 +61,17 @@ bool has_same_shape(const LinkSolid& a, const LinkSolid& b) {
   return first.vertices == second.vertices && first.triangles == second.triangles;
 }
 
-/// Of two links, whose first solids have these numbers; that of the second one ends before `end`.
+/// Of two owners, whose first solids have these numbers; that of the second one ends before `end`.
 bool have_same_shapes(const RobotAndScene& all, std::size_t first, std::size_t begin, std::size_t end) {
   for (std::size_t i = begin; i < end; ++i) {
     const std::size_t other = first + (i - begin);
-    if (other >= begin || all.solids.around[other].link != all.solids.around[first].link) return false;
+    if (other >= begin || all.owner_of(other) != all.owner_of(first)) return false;
     const bool is_same = has_same_shape(all.solids.around[i], all.solids.around[other]) &&
                          has_same_shape(all.solids.inside[i], all.solids.inside[other]);
     if (!is_same) return false;
   }
   const std::size_t behind = first + (end - begin);  // of the first link, which may have more solids
-  return behind == begin || all.solids.around[behind].link != all.solids.around[first].link;
+  return behind == begin || all.owner_of(behind) != all.owner_of(first);
 }
 
 /// The name of a part or of a file without folder and ending, in letters that every file system takes.
@@ -186,7 +186,7 @@ std::vector<std::string> names_of_bodies(const RobotAndScene& all, const Clearan
     of_link.add(kBodyFileFormat);
     of_link.add(static_cast<std::uint64_t>(options.balls));
     of_link.add(options.resolution);
-    for (end = begin; end < around.size() && around[end].link == around[begin].link; ++end) {
+    for (end = begin; end < around.size() && all.owner_of(end) == all.owner_of(begin); ++end) {
       of_link.add_solid(around[end]);
       of_link.add_solid(inside[end]);
     }

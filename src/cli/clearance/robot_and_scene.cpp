@@ -41,7 +41,7 @@ Status load_robot(const ClearanceOptions& options, RobotAndScene& all) {
 
 /// `name` is that of a file of the scene.
 void add_scene(const IndexedMesh& mesh, const std::string& name, RobotAndScene& all) {
-  const LinkSolid solid = {mesh, static_cast<std::uint32_t>(all.links()), {}, name};
+  const LinkSolid solid = {mesh, static_cast<std::uint32_t>(all.robot.links.size()), {}, name};
   all.solids.around.push_back(solid);
   all.solids.inside.push_back(solid);
   all.names.push_back(name);
@@ -60,8 +60,8 @@ Status load_scene_body(const std::string& path, const ClearanceOptions& options,
   if (options.balls > 0 && body.value().cover.empty()) {
     return file_error(path, "the file has no balls that cover the mesh, and --balls needs them");
   }
-  all.balls_of_files[static_cast<std::uint32_t>(all.links())] = {std::move(body.value().inside),
-                                                                 std::move(body.value().cover)};
+  all.balls_of_files[static_cast<std::uint32_t>(all.names.size())] = {std::move(body.value().inside),
+                                                                      std::move(body.value().cover)};
   add_scene(body.value().mesh, path, all);
   return {};
 }
@@ -107,6 +107,12 @@ Status read_left_out(const ClearanceOptions& options, RobotAndScene& all) {
 
 }  // namespace
 
+std::uint32_t RobotAndScene::owner_of(std::size_t solid) const {
+  const std::size_t of_links = solids.around.size() - files();
+  if (solid < of_links) return solids.around[solid].link;
+  return static_cast<std::uint32_t>(robot.links.size() + (solid - of_links));
+}
+
 Result<RobotAndScene> load_robot_and_scene(const ClearanceOptions& options, std::vector<StageTime>& times) {
   Stopwatch stopwatch;
   RobotAndScene all;
@@ -137,11 +143,10 @@ Status find_pairs(const ClearanceOptions& options, const Kinematics& kinematics,
     all.pairs = pairs_without(chosen.compared, all.from_srdf);
   }
   const std::vector<bool> moves = moving_links(all.robot);
-  for (std::uint32_t link = 0; link < moves.size(); ++link) {
-    if (!moves[link] || !has_solid[link]) continue;
-    for (auto scene = static_cast<std::uint32_t>(moves.size()); scene < all.links(); ++scene) {
-      all.pairs.push_back({link, scene});
-    }
+  if (all.files() == 0) return {};
+  const auto scene = static_cast<std::uint32_t>(moves.size());
+  for (std::uint32_t link = 0; link < scene; ++link) {
+    if (moves[link] && has_solid[link]) all.pairs.push_back({link, scene});
   }
   return {};
 }

@@ -1,6 +1,7 @@
 // What `medial-vk clearance` compares: the solids of links and scene, and the pairs of links.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -23,18 +24,22 @@ struct SolidBalls {
   std::vector<Ball> inside, cover;
 };
 
-/// A robot in its surroundings. The files of the scene are further links, after those of the robot.
+/// A robot in its surroundings. All files of the scene are one further link, after those of the robot, since a query
+/// finds the near ones of many solids on a link by a tree.
 struct RobotAndScene {
   Robot robot;
-  LinkSolids solids;
-  std::vector<std::string> names;  ///< Of links, then of files.
-  /// Of the body files of the scene, proved again, by the links that stand for them.
+  LinkSolids solids;               ///< Those of the scene, one for each file, come last.
+  std::vector<std::string> names;  ///< Of the owners of solids: links, then files.
+  /// Of the body files of the scene, proved again, by their owners.
   std::map<std::uint32_t, SolidBalls> balls_of_files;
   std::vector<LinkPair> joined, touching;  ///< Links that are not compared, unless there is an SRDF,
   std::vector<LinkPair> from_srdf;         ///< and those that it names.
   std::vector<LinkPair> pairs;             ///< Those that are compared.
 
-  std::size_t links() const { return names.size(); }
+  std::size_t files() const { return names.size() - robot.links.size(); }
+  std::size_t links() const { return robot.links.size() + (files() > 0 ? 1 : 0); }
+  /// Whose a solid is, by its number: an index of `names`.
+  std::uint32_t owner_of(std::size_t solid) const;
 };
 
 /// Reads the robot, the meshes of its links and the scene. Errors: kInvalidMesh, kUsage, kOutOfMemory, kInterrupted.

@@ -239,9 +239,7 @@ class ClearanceRun {
     Status status = least_distances(*around_, poses, lower, of_triangles, {options_.threads});
     if (!status) return status;
     if (inside_) {
-      upper.resize(clearances.size());
-      status = least_distances(*inside_, poses, upper, of_triangles, {options_.threads});
-      if (!status) return status;
+      if (status = answer_inside(poses, lower, upper); !status) return status;
     }
     for (std::size_t i = 0; i < clearances.size(); ++i) {
       clearances[i] = clearance_of(lower[i], inside_ ? upper[i] : lower[i]);
@@ -249,18 +247,42 @@ class ClearanceRun {
     return {};
   }
 
+  /// Upper ends by the facets inside of shapes. Where those around are beyond the limit, so are these, and nothing is
+  /// left to prove.
+  Status answer_inside(std::span<const Pose> poses, std::span<const LeastDistance> around,
+                       std::vector<LeastDistance>& inside) const {
+    std::vector<std::size_t> near;
+    for (std::size_t i = 0; i < around.size(); ++i) {
+      if (!(around[i].lower > 0 && around[i].lower >= options_.limit)) near.push_back(i);
+    }
+    std::vector<LeastDistance> found(near.size());
+    Status status =
+        least_distances(*inside_, poses_of(near, poses), found, triangle_options(options_), {options_.threads});
+    if (!status) return status;
+    inside.assign(around.size(), {});
+    for (std::size_t k = 0; k < near.size(); ++k) inside[near[k]] = found[k];
+    return {};
+  }
+
+  /// Those of some configurations of a block.
+  std::vector<Pose> poses_of(std::span<const std::size_t> configurations, std::span<const Pose> poses) const {
+    std::vector<Pose> some;
+    some.reserve(configurations.size() * all_.links());
+    for (const std::size_t i : configurations) {
+      const auto first = poses.begin() + static_cast<std::ptrdiff_t>(i * all_.links());
+      some.insert(some.end(), first, first + static_cast<std::ptrdiff_t>(all_.links()));
+    }
+    return some;
+  }
+
   /// With --decide: triangles answer where balls have left a configuration of a block undecided.
   Status decide(std::size_t begin, std::span<const Pose> poses, std::span<Clearance> clearances) {
     std::vector<std::size_t> undecided;
-    std::vector<Pose> of_undecided;
     for (std::size_t i = 0; i < clearances.size(); ++i) {
-      if (clearances[i].collision() != Collision::kUndecided) continue;
-      undecided.push_back(i);
-      const auto first = poses.begin() + static_cast<std::ptrdiff_t>(i * all_.links());
-      of_undecided.insert(of_undecided.end(), first, first + static_cast<std::ptrdiff_t>(all_.links()));
+      if (clearances[i].collision() == Collision::kUndecided) undecided.push_back(i);
     }
     std::vector<Clearance> decided(undecided.size());
-    if (Status status = answer_by_triangles(of_undecided, decided); !status) return status;
+    if (Status status = answer_by_triangles(poses_of(undecided, poses), decided); !status) return status;
     for (std::size_t k = 0; k < undecided.size(); ++k) {
       clearances[undecided[k]] = std::move(decided[k]);
       by_triangles_[begin + undecided[k]] = true;
@@ -273,7 +295,7 @@ class ClearanceRun {
     Clearance clearance = {std::min(around.lower, inside.upper), inside.upper, {}, {}};
     const PartPair& pair = inside.upper_pair.a != PartPair::kNone ? inside.upper_pair : around.lower_pair;
     if (pair.a == PartPair::kNone) return clearance;
-    std::uint32_t first = all_.solids.around[pair.a].link, second = all_.solids.around[pair.b].link;
+    std::uint32_t first = all_.owner_of(pair.a), second = all_.owner_of(pair.b);
     if (first > second) std::swap(first, second);
     clearance.first = all_.names[first];
     clearance.second = all_.names[second];

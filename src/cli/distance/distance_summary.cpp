@@ -13,16 +13,16 @@ namespace medial_vk::cli {
 namespace {
 
 template <class Interval>
-std::string interval_text(const Interval& distance) {
+std::string distance_text(const Interval& distance) {
   if (distance.upper == 0) return "0: the solids have a common point";
-  return fmt::format("{:.9g} to {:.9g}", distance.lower, distance.upper);
+  return interval_text(distance.lower, distance.upper);
 }
 
 std::string point_text(const Point& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p[0], p[1], p[2]); }
 
 std::string one_pose(const Distance& distance) {
   std::string text = labelled("state", name_of(distance.collision()));
-  text += labelled("distance", interval_text(distance));
+  text += labelled("distance", distance_text(distance));
   if (distance.upper == 0) return text + labelled("point", point_text(distance.on_a));
   return text +
          labelled("points", fmt::format("{} of A, {} of B", point_text(distance.on_a), point_text(distance.on_b)));
@@ -34,7 +34,7 @@ std::string pair_text(const char* set, const BallPair& pair) {
 }
 
 std::string one_pose(const DistanceBounds& bounds) {
-  std::string text = labelled("state", name_of(bounds.collision())) + labelled("distance", interval_text(bounds));
+  std::string text = labelled("state", name_of(bounds.collision())) + labelled("distance", distance_text(bounds));
   const std::string lower = pair_text("lower end by cover", bounds.cover_pair);
   const std::string upper = pair_text("upper end by inside", bounds.inside_pair);
   if (lower.empty() && upper.empty()) return text;
@@ -46,7 +46,7 @@ std::string many_poses(std::span<const Interval> distances) {
   std::string text = labelled("poses", grouped(distances.size()));
   text += labelled("states", states_text(distances));
   const auto least = std::ranges::min_element(distances, {}, &Interval::upper);
-  return text + labelled("least", fmt::format("{} (pose {})", interval_text(*least), least - distances.begin() + 1));
+  return text + labelled("least", fmt::format("{} (pose {})", distance_text(*least), least - distances.begin() + 1));
 }
 
 template <class Interval>

@@ -43,7 +43,8 @@ PairPicture picture_of(const DistanceCommandOptions& options, const DistanceView
   picture.title = title_of(interval);
   if (view.poses.size() > 1) picture.title = fmt::format("pose {}: {}", shown + 1, picture.title);
   if (coincide(picture.mesh, picture.triangles_of_a)) picture.title += " (A and B are the same, in the same place)";
-  picture.has_points = std::isfinite(interval.upper);
+  // Beyond the limit they are some two points, not the nearest ones.
+  picture.has_points = std::isfinite(interval.upper) && interval.upper <= options.limit;
   picture.is_hit = interval.collision == Collision::kHit;
   if (!view.distances.empty()) {
     picture.on_a = view.distances[shown].on_a;

@@ -13,6 +13,7 @@
 #include "cli/distance/distance_views.h"
 #include "cli/help/help_texts.h"
 #include "cli/options/distance_options.h"
+#include "cli/shared/ball_points.h"
 #include "cli/shared/load.h"
 #include "cli/shared/load_body.h"
 #include "cli/shared/pair_views.h"
@@ -200,8 +201,17 @@ class DistanceRun {
     progress_.clear();
     if (!status) return status;
     if (!files_.empty()) times_.push_back({"picture", stopwatch.lap()});
-    files_.push_back({options_.output, options_.balls ? encode_bounds_csv(bounds_) : encode_distances_csv(distances_)});
+    files_.push_back({options_.output, options_.balls ? encode_bounds() : encode_distances_csv(distances_)});
     return {};
+  }
+
+  std::string encode_bounds() const {
+    std::vector<Distance> by_balls;
+    by_balls.reserve(bounds_.size());
+    for (std::size_t i = 0; i < bounds_.size(); ++i) {
+      by_balls.push_back(distance_by_balls(*body_a_, *body_b_, poses_[i], bounds_[i]));
+    }
+    return encode_distances_csv(by_balls);
   }
 
   std::string summary() const {

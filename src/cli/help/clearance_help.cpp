@@ -28,7 +28,8 @@ What is compared:
                         one; further columns are ignored; "-": standard input
       --scene FILE      a mesh that the robot must not touch, or a body file
                         (.npz) of one, in metres, in the frame of the robot's
-                        root; as often as needed
+                        root; as often as needed. All are compared with the
+                        robot, and not with each other
       --srdf FILE       compare all pairs of links but those of the elements
                         <disable_collisions> (default: all but those that a
                         joint joins, that never move relative to each other, or
@@ -41,7 +42,8 @@ What is compared:
 What is computed:
       --tolerance T     intervals may be as wide as T, in metres (default 0: as
                         narrow as rounding allows)
-      --limit L         prove no more than that a distance is at least L
+      --limit L         prove no more than that a distance is at least L; 0:
+                        decide free or hit alone, which is fastest
       --balls N         bounds by balls alone, without triangles: N that are
                         proved to lie inside the solids of each link, and N that
                         cover them, fitted in this run; a mesh of the scene

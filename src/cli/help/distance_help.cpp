@@ -30,7 +30,8 @@ Where B is:
 What is computed:
       --tolerance T     intervals may be as wide as T, in units of the mesh
                         (default 0: as narrow as rounding allows)
-      --limit L         prove no more than that a distance is at least L
+      --limit L         prove no more than that a distance is at least L; 0:
+                        decide free or hit alone, which is fastest
       --surfaces        the distance of the surfaces: a solid inside another one
                         is not at distance 0
       --balls           bounds by the balls of two body files alone, without
@@ -46,9 +47,11 @@ Output:
   -o, --output FILE     a .csv; "-": standard output (default). A line per pose:
                         lower and upper end of the interval, the state (free,
                         hit or undecided), and the nearest points of A and B, in
-                        the frame of A; with --balls without points
+                        the frame of A; with --balls, points of two balls inside
       --picture FILE    a .png of both solids in the pose of the least distance,
-                        with their nearest points and the balls that decided
+                        with their nearest points; with --balls, the balls that
+                        decided, and of body files without it those that bound
+                        the distance
       --html FILE       a page with that picture, the states of all poses and a
                         histogram of their distances
       --row N           show the pose of the N-th line of the poses, from 1, in

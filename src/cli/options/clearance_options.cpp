@@ -37,7 +37,7 @@ void declare_clearance(CLI::App& app, ClearanceOptions& options, ViewChoice& vie
   add.choice<Backend>("--backend", {{"vulkan", Backend::kVulkan}, {"cpu", Backend::kCpu}}, options.backend);
   add.text("--device", "index or name", options.device);
   add.real("--tolerance", {0, kGreatestClearance, true}, " (metres)", options.tolerance);
-  add.real("--limit", {0, kGreatestClearance, false}, " (metres)", options.limit);
+  add.real("--limit", {0, kGreatestClearance, true}, " (metres)", options.limit);
   add.flag("--visual", options.visual);
   add.flag("--keep-inner-faces", options.keep_inner_faces);
   add.flag("--check", options.check);
@@ -98,7 +98,7 @@ GroupOptions group_options(const ClearanceOptions& options) {
   GroupOptions of_library;
   of_library.exact = options.balls == 0;
   of_library.tolerance = options.tolerance;
-  if (options.limit > 0) of_library.limit = options.limit;
+  of_library.limit = options.limit;
   return of_library;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,8 +38,8 @@ struct ClearanceOptions {
   Backend backend = Backend::kVulkan;
   std::string device;
   double tolerance = 0;
-  double limit = 0;     ///< 0: none.
-  bool visual = false;  ///< Visual shapes of links instead of those for collisions.
+  double limit = std::numeric_limits<double>::infinity();  ///< Infinite: none; 0: only collisions are decided.
+  bool visual = false;                                     ///< Visual shapes of links instead of those for collisions.
   bool keep_inner_faces = false;
   unsigned threads = 0;
   bool check = false;

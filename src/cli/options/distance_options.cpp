@@ -26,7 +26,7 @@ void declare_distance(CLI::App& app, DistanceCommandOptions& options, ViewChoice
   add.view("--view", view);
   add.up("--up", options.view.up);
   add.real("--tolerance", {0, kGreatestLength, true}, " (units of the mesh)", options.tolerance);
-  add.real("--limit", {0, kGreatestLength, false}, " (units of the mesh)", options.limit);
+  add.real("--limit", {0, kGreatestLength, true}, " (units of the mesh)", options.limit);
   add.flag("--surfaces", options.surfaces);
   add.flag("--balls", options.balls);
   add.flag("--keep-inner-faces", options.keep_inner_faces);
@@ -52,8 +52,9 @@ Status check_balls(const DistanceCommandOptions& options) {
     return usage_error(
         fmt::format("--balls: '{}' is no body file; medial-vk spheres MESH --contract both makes one", file));
   }
-  const std::pair<const char*, bool> of_triangles[] = {
-      {"--tolerance", options.tolerance > 0}, {"--limit", options.limit > 0}, {"--surfaces", options.surfaces}};
+  const std::pair<const char*, bool> of_triangles[] = {{"--tolerance", options.tolerance > 0},
+                                                       {"--limit", options.limit <= kGreatestLength},
+                                                       {"--surfaces", options.surfaces}};
   for (const auto& [name, is_given] : of_triangles) {
     if (is_given) return usage_error(fmt::format("--balls answers without triangles: it has no {}", name));
   }
@@ -77,7 +78,7 @@ Status check_distance_outputs(const DistanceCommandOptions& options) {
 DistanceOptions distance_options(const DistanceCommandOptions& options) {
   DistanceOptions of_library;
   of_library.tolerance = options.tolerance;
-  if (options.limit > 0) of_library.limit = options.limit;
+  of_library.limit = options.limit;
   of_library.surfaces_only = options.surfaces;
   return of_library;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,7 +26,7 @@ struct DistanceCommandOptions {
   PictureView view;
 
   double tolerance = 0;
-  double limit = 0;  ///< 0: none.
+  double limit = std::numeric_limits<double>::infinity();  ///< Infinite: none; 0: only collisions are decided.
   bool surfaces = false;
   bool balls = false;  ///< Bounds by balls alone.
   bool keep_inner_faces = false;

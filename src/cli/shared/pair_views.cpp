@@ -5,24 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <utility>
 
-#include "base/point_ops.h"
+#include "cli/shared/ball_points.h"
 
 namespace medial_vk::cli {
 namespace {
-
-/// The points of two balls that are nearest to the other one; where they overlap, a common point.
-void nearest_of_balls(const Ball& a, const Ball& b, PairPicture& picture) {
-  const Point away = b.centre - a.centre;
-  const double between = length(away);
-  const Point towards = between > 0 ? (1 / between) * away : Point{1, 0, 0};
-  picture.on_a = a.centre + a.radius * towards;
-  picture.on_b = b.centre - b.radius * towards;
-  if (between > a.radius + b.radius) return;
-  const double step = std::clamp(between - b.radius, 0.0, a.radius);
-  picture.on_a = picture.on_b = a.centre + step * towards;
-}
 
 Ball moved(const PlacedBody& body, const Ball& ball) { return {body.pose * ball.centre, ball.radius}; }
 
@@ -46,12 +35,17 @@ std::size_t shown_of(std::span<const PoseInterval> intervals, std::size_t row) {
   return static_cast<std::size_t>(least - intervals.begin());
 }
 
-void add_balls(const PlacedBody& a, const PlacedBody& b, const Pose& b_in_a, bool as_points, PairPicture& picture) {
+void add_balls(const PlacedBody& a, const PlacedBody& b, const Pose& b_in_a, bool decide, PairPicture& picture) {
+  picture.balls_decide = decide;
   const DistanceBounds bounds = distance_bounds(a.body, b.body, b_in_a);
   if (bounds.inside_pair.a != BallPair::kNone) {
     picture.inside_a = {moved(a, a.body.inside()[bounds.inside_pair.a])};
     picture.inside_b = {moved(b, b.body.inside()[bounds.inside_pair.b])};
-    if (as_points) nearest_of_balls(picture.inside_a[0], picture.inside_b[0], picture);
+    if (decide) {
+      const PointsOfBalls points = nearest_of_balls(picture.inside_a[0], picture.inside_b[0]);
+      picture.on_a = points.on_a;
+      picture.on_b = points.on_b;
+    }
   }
   if (bounds.cover_pair.a != BallPair::kNone) {
     picture.cover_a = {moved(a, a.body.cover()[bounds.cover_pair.a])};
@@ -60,6 +54,8 @@ void add_balls(const PlacedBody& a, const PlacedBody& b, const Pose& b_in_a, boo
 }
 
 std::string title_of(const PoseInterval& interval) {
+  // A limit of 0 asks for this alone.
+  if (interval.lower > 0 && interval.lower <= std::numeric_limits<double>::min()) return "no common point";
   if (!std::isfinite(interval.upper)) {
     return interval.lower > 0 ? fmt::format("distance at least {:.6g}", interval.lower) : "undecided";
   }

@@ -33,8 +33,9 @@ struct PlacedBody {
 };
 
 /// The balls that give both ends of the interval of the balls, where the bodies have balls; `b_in_a` is the pose of b
-/// in the frame of a. With `as_points`, the nearest points of those inside are also those of the picture.
-void add_balls(const PlacedBody& a, const PlacedBody& b, const Pose& b_in_a, bool as_points, PairPicture& picture);
+/// in the frame of a. Where these balls `decide`, the nearest points of those inside are also those of the picture;
+/// else triangles give the points and the ends, and the balls bound them.
+void add_balls(const PlacedBody& a, const PlacedBody& b, const Pose& b_in_a, bool decide, PairPicture& picture);
 
 /// What is proved, as the title of a picture.
 std::string title_of(const PoseInterval& interval);

@@ -25,12 +25,4 @@ std::string encode_distances_csv(std::span<const Distance> distances) {
   return csv;
 }
 
-std::string encode_bounds_csv(std::span<const DistanceBounds> bounds) {
-  std::string csv = "lower,upper,state\n";
-  for (const DistanceBounds& b : bounds) {
-    csv += fmt::format("{},{},{}\n", b.lower, b.upper, name_of(b.collision()));
-  }
-  return csv;
-}
-
 }  // namespace medial_vk

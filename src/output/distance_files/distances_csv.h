@@ -12,10 +12,7 @@ namespace medial_vk {
 const char* name_of(Collision collision);
 
 /// A line per distance, after a line of names: lower, upper, state, ax, ay, az, bx, by, bz (the points, in the frame of
-/// a). Numbers read back as the same doubles; an infinite one is "inf".
+/// a). Numbers read back as the same doubles; an infinite one is "inf", and what is no number "nan".
 std::string encode_distances_csv(std::span<const Distance> distances);
-
-/// The same for bounds by balls: lower, upper, state.
-std::string encode_bounds_csv(std::span<const DistanceBounds> bounds);
 
 }  // namespace medial_vk

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "output/charts_and_tables/svg_drawing.h"
@@ -82,6 +83,9 @@ std::string shown_text(const DistancePage& page) {
                        page.is_chosen ? "" : ", that of the least distance");
   }
   if (shown.collision == Collision::kHit) return pose + ": the solids have a common point.";
+  if (shown.lower > 0 && shown.lower <= std::numeric_limits<double>::min()) {  // a limit of 0 asks for this alone
+    return pose + ": the solids have no common point.";
+  }
   if (!std::isfinite(shown.upper)) {
     return fmt::format("{}: the distance is at least {:.9g}, in {}.", pose, shown.lower, page.unit);
   }

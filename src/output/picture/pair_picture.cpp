@@ -20,7 +20,8 @@ using Eigen::Vector3d;
 
 // Colours of sheets, by number.
 constexpr int kOfA = 0, kOfB = 1, kLine = 4;
-constexpr double kPoint = 0.012;  // The radius of a point, of the diagonal of everything.
+// Radii of points and lines, as shares of the diagonal of everything: by themselves, and at least, beside small balls.
+constexpr double kPoint = 0.012, kThin = 0.004, kFinest = 0.0015;
 
 Vector3d vector(const Point& p) { return Vector3d(p.data()); }
 
@@ -40,32 +41,42 @@ class Marks {
     marks_.push_back(mark);
   }
 
-  void point(const Point& p, int colour) { ball(vector(p), kPoint * size_, colour); }
+  void point(const Point& p, double radius, int colour) { ball(vector(p), radius, colour); }
 
   /// A tube of balls that overlap.
-  void line(const Point& from, const Point& to) {
+  void line(const Point& from, const Point& to, double radius) {
     const Vector3d a = vector(from), b = vector(to);
-    const int count = count_along((b - a).norm());
-    for (int i = 0; i <= count; ++i) ball(a + (b - a) * i / count, kThin * size_, kLine);
+    const int count = count_along((b - a).norm(), radius);
+    for (int i = 0; i <= count; ++i) ball(a + (b - a) * i / count, radius, kLine);
   }
 
   /// The circle in which a ball is seen, nearly.
-  void circle(const Ball& of, int colour) {
-    const int count = count_along(2 * std::numbers::pi * of.radius);
-    for (int i = 0; i < count; ++i) {
-      const double angle = 2 * std::numbers::pi * i / count;
-      const Vector3d at = std::cos(angle) * across_ + std::sin(angle) * along_;
-      ball(vector(of.centre) + of.radius * at, 0.5 * kThin * size_, colour);
-    }
+  void circle(const Ball& of, int colour) { circle(of, across_, along_, colour); }
+
+  /// That circle, and two others whose planes are perpendicular to one another and oblique to the view.
+  void globe(const Ball& of, int colour) {
+    const Vector3d pole = (along_ + 0.5 * across_.cross(along_)).normalized(), side = across_.cross(pole);
+    circle(of, colour);
+    circle(of, across_, side, colour);
+    circle(of, (across_ + side).normalized(), pole, colour);
   }
 
   const std::vector<MedialSphere>& marks() const { return marks_; }
 
  private:
-  static constexpr double kThin = 0.004;
-  int count_along(double length) const {
+  /// In the plane of two perpendicular unit vectors.
+  void circle(const Ball& of, const Vector3d& first, const Vector3d& second, int colour) {
+    const int count = count_along(2 * std::numbers::pi * of.radius, kThin * size_);
+    for (int i = 0; i < count; ++i) {
+      const double angle = 2 * std::numbers::pi * i / count;
+      const Vector3d at = std::cos(angle) * first + std::sin(angle) * second;
+      ball(vector(of.centre) + of.radius * at, 0.5 * kThin * size_, colour);
+    }
+  }
+
+  static int count_along(double length, double radius) {
     constexpr double kMost = 4000;
-    return static_cast<int>(std::clamp(std::ceil(length / (0.4 * kThin * size_)), 1.0, kMost));
+    return static_cast<int>(std::clamp(std::ceil(length / (0.4 * radius)), 1.0, kMost));
   }
 
   double size_;
@@ -102,16 +113,43 @@ std::string shortened(const std::string& name) {
 
 bool has_common_point(const PairPicture& pair) { return pair.has_points && pair.on_a == pair.on_b; }
 
+bool holds(const Ball& ball, std::span<const Ball> others) {
+  return std::ranges::any_of(others, [&](const Ball& other) {
+    return (vector(other.centre) - vector(ball.centre)).norm() + other.radius < ball.radius;
+  });
+}
+
+/// That of a mark beside balls inside, which it must not hide: no more than a share of the smallest one.
+double mark_radius(double size, double usual, double share, std::span<const Ball> balls) {
+  double radius = usual * size;
+  for (const Ball& ball : balls) radius = std::min(radius, share * ball.radius);
+  return std::max(radius, kFinest * size);
+}
+
+double point_radius(double size, std::span<const Ball> balls) { return mark_radius(size, kPoint, 0.5, balls); }
+double common_radius(double size, std::span<const Ball> balls) { return mark_radius(size, kPoint, 0.3, balls); }
+
 std::vector<MedialSphere> marks_of(const PairPicture& pair, const PictureView& view) {
   Marks marks(diagonal_of(pair.mesh), Vector3d(view.towards.data()));
-  for (const Ball& ball : pair.inside_a) marks.ball(vector(ball.centre), ball.radius, kOfA);
-  for (const Ball& ball : pair.inside_b) marks.ball(vector(ball.centre), ball.radius, kOfB);
+  const auto draw_inside = [&](const std::vector<Ball>& balls, const std::vector<Ball>& others, int colour) {
+    for (const Ball& ball : balls) {
+      if (holds(ball, others)) {
+        marks.globe(ball, colour);
+      } else {
+        marks.ball(vector(ball.centre), ball.radius, colour);
+      }
+    }
+  };
+  draw_inside(pair.inside_a, pair.inside_b, kOfA);
+  draw_inside(pair.inside_b, pair.inside_a, kOfB);
   for (const Ball& ball : pair.cover_a) marks.circle(ball, kOfA);
   for (const Ball& ball : pair.cover_b) marks.circle(ball, kOfB);
   if (!pair.has_points || has_common_point(pair)) return marks.marks();
-  marks.line(pair.on_a, pair.on_b);
-  marks.point(pair.on_a, kOfA);
-  marks.point(pair.on_b, kOfB);
+  const double size = diagonal_of(pair.mesh);
+  const double of_a = mark_radius(size, kThin, 0.35, pair.inside_a);
+  marks.line(pair.on_a, pair.on_b, std::min(of_a, mark_radius(size, kThin, 0.35, pair.inside_b)));
+  marks.point(pair.on_a, point_radius(size, pair.inside_a), kOfA);
+  marks.point(pair.on_b, point_radius(size, pair.inside_b), kOfB);
   return marks.marks();
 }
 
@@ -119,7 +157,12 @@ std::vector<MedialSphere> marks_of(const PairPicture& pair, const PictureView& v
 std::string note_of(const PairPicture& pair) {
   const bool has_inside = !pair.inside_a.empty() || !pair.inside_b.empty();
   const bool has_cover = !pair.cover_a.empty() || !pair.cover_b.empty();
-  std::string note = has_inside ? "solid: balls inside" : "";
+  std::string note = !pair.balls_decide && (has_inside || has_cover) ? "balls that bound it, " : "";
+  if (has_inside) {
+    const bool is_nested = std::ranges::any_of(pair.inside_a, [&](const Ball& b) { return holds(b, pair.inside_b); }) ||
+                           std::ranges::any_of(pair.inside_b, [&](const Ball& b) { return holds(b, pair.inside_a); });
+    note += is_nested ? "solid and, around it, wires: balls inside" : "solid: balls inside";
+  }
   if (has_inside && has_cover) note += ", ";
   return has_cover ? note + "rings: balls of the covers" : note;
 }
@@ -143,9 +186,11 @@ Picture draw_pair(const PairPicture& pair, const PictureView& view) {
   if (swatches.empty()) swatches.emplace_back(scene.palette.size(), "");  // no colour, and no bar of all of them
   if (pair.has_points) swatches.emplace_back(colour(kLine), pair.is_hit ? "common point" : "nearest points");
   scene.legend.note = note_of(pair);
-  // In both solids, it would be hidden behind them and by the balls.
+  // In both solids, it would be hidden behind them and by the balls. With its rims it is twice as large.
   if (has_common_point(pair)) {
-    scene.on_top = {picture::make_mark(pair.mesh, pair.on_a, kPoint * diagonal_of(pair.mesh), colour(kLine))};
+    const double size = diagonal_of(pair.mesh);
+    const double radius = std::min(common_radius(size, pair.inside_a), common_radius(size, pair.inside_b));
+    scene.on_top = {picture::make_mark(pair.mesh, pair.on_a, radius, colour(kLine))};
   }
   Picture out;
   out.width = 1200;

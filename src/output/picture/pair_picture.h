@@ -22,8 +22,11 @@ struct PairPicture {
   bool is_hit = false;                     ///< They are proved to be one common point.
   /// The nearest points, joined by a line; or one common point, which shows through everything.
   Point on_a = {0, 0, 0}, on_b = {0, 0, 0};
-  std::vector<Ball> inside_a, inside_b;  ///< Drawn as balls in the glass of the meshes.
-  std::vector<Ball> cover_a, cover_b;    ///< Drawn as circles, since they would hide what they hold.
+  /// Drawn as balls in the glass of the meshes; one that holds a ball of the other solid as a globe of wires, since it
+  /// would hide that one.
+  std::vector<Ball> inside_a, inside_b;
+  std::vector<Ball> cover_a, cover_b;  ///< Drawn as circles, since they would hide what they hold.
+  bool balls_decide = true;            ///< The balls give both ends; else triangles do, and the balls bound them.
   std::string title;
 };
 

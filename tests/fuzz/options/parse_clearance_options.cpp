@@ -15,7 +15,7 @@ void require_usable(const cli::ClearanceOptions& options) {
   require(std::ranges::count(inputs, "-") <= 1, "standard input is one file");
   require(!options.output.empty(), "there is an output");
   require(options.tolerance >= 0 && options.tolerance <= 1e30, "--tolerance keeps its range");
-  require(options.limit >= 0 && options.limit < 1e30, "--limit keeps its range");
+  require(options.limit >= 0 && (options.limit <= 1e30 || std::isinf(options.limit)), "--limit keeps its range");
   require(options.threads <= 1024, "--threads keeps its range");
   require(options.row == 0 || !options.picture.empty() || !options.html.empty(), "a row is shown");
   require(!(options.quiet && options.verbose), "-q and -v exclude each other");
@@ -25,8 +25,7 @@ void require_usable(const cli::ClearanceOptions& options) {
   require(options.balls > 0 || (options.bodies.empty() && !options.decide), "bodies and decisions are those of balls");
   require(options.bodies != "-", "a stream is no folder");
   require(of_library.tolerance == options.tolerance, "the library has the same tolerance");
-  require(options.limit > 0 ? of_library.limit == options.limit : std::isinf(of_library.limit),
-          "there is no limit, or that one");
+  require(of_library.limit == options.limit, "there is no limit, or that one");
   for (const cli::NamedOutput& output : cli::outputs_of(options)) {
     if (output.file->empty()) continue;
     for (const std::string& input : inputs) {

@@ -13,17 +13,16 @@ void require_usable(const cli::DistanceCommandOptions& options) {
   require((options.a == "-") + (options.b == "-") + (options.poses == "-") <= 1, "standard input is one file");
   require(!options.output.empty(), "there is an output");
   require(options.tolerance >= 0 && options.tolerance <= 1e30, "--tolerance keeps its range");
-  require(options.limit >= 0 && options.limit < 1e30, "--limit keeps its range");
+  require(options.limit >= 0 && (options.limit <= 1e30 || std::isinf(options.limit)), "--limit keeps its range");
   require(options.threads <= 1024, "--threads keeps its range");
   require(options.row == 0 || !options.picture.empty() || !options.html.empty(), "a row is shown");
   require(!(options.quiet && options.verbose), "-q and -v exclude each other");
-  require(!options.balls || (options.tolerance == 0 && options.limit == 0 && !options.surfaces),
+  require(!options.balls || (options.tolerance == 0 && std::isinf(options.limit) && !options.surfaces),
           "balls alone have no options of triangles");
   const DistanceOptions of_library = cli::distance_options(options);
   require(of_library.tolerance == options.tolerance && of_library.surfaces_only == options.surfaces,
           "the library is asked the same");
-  require(options.limit > 0 ? of_library.limit == options.limit : std::isinf(of_library.limit),
-          "there is no limit, or that one");
+  require(of_library.limit == options.limit, "there is no limit, or that one");
   for (const cli::NamedOutput& output : cli::outputs_of(options)) {
     if (output.file->empty()) continue;
     for (const std::string* input : {&options.a, &options.b, &options.poses}) {

@@ -56,6 +56,24 @@ TEST_F(CheckClearances, WrongOnesFail) {
   EXPECT_EQ(failures(1, {0, 0}), "h");
 }
 
+/// With a limit of 0 the lower end of all free configurations is the least number above 0.
+TEST_F(CheckClearances, FreeOfALimitOfZeroIsTested) {
+  const CheckedInterval free = {std::numeric_limits<double>::min(), std::numeric_limits<double>::infinity()};
+  EXPECT_EQ(failures(1, free), "");
+  EXPECT_EQ(failures(2.5, free), "f");
+  EXPECT_EQ(failures(2 + 1e-9, free), "f");
+  EXPECT_EQ(failures(3, free), "f");  // two links at one place
+  EXPECT_EQ(failures(2, free), "");   // they touch: whether there is a common point is a matter of rounding
+  const Mesh small = [] {
+    Mesh box = test::make_box({0.2, 0.2, 0.2});
+    test::translate(box, {0.4, 0.4, 0.4});
+    return box;
+  }();
+  const PreparedMesh inner = prepare_mesh(small, {}).value();
+  solids_.around[1].mesh = solids_.inside[1].mesh = &inner;
+  EXPECT_EQ(failures(3, free), "f");  // one holds the other
+}
+
 /// Lower ends are those of the set around, upper ends those of the set inside.
 TEST_F(CheckClearances, TwoSetsHoldEachEnd) {
   Mesh small = test::make_box({0.5, 1, 1});

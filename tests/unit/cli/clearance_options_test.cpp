@@ -94,6 +94,9 @@ TEST(ClearanceOptions, BallsOfLinks) {
   EXPECT_EQ(options.backend, Backend::kCpu);
   EXPECT_FALSE(group_options(options).exact);
   EXPECT_EQ(group_options(options).limit, 2);
+  const ClearanceOptions collisions = parsed_clearance(with({"--balls", "64", "--decide", "--limit", "0"}));
+  EXPECT_EQ(group_options(collisions).limit, 0);
+  EXPECT_EQ(triangle_options(collisions).limit, 0);
   EXPECT_EQ(parsed_clearance(with({"--balls", "9", "--device", "1"})).device, "1");
   EXPECT_THAT(clearance_message(with({"--balls", "0"})), HasSubstr("not between 1 and"));
   EXPECT_THAT(clearance_message(with({"--balls", "9", "--tolerance", "0.1"})), HasSubstr("it has no --tolerance"));
@@ -148,7 +151,8 @@ TEST(ClearanceOptions, Messages) {
   EXPECT_THAT(clearance_message({"r.urdf", "s.urdf", "--joints", "q.csv"}), HasSubstr("one robot at a time"));
   EXPECT_THAT(clearance_message({"r.urdf", "--joints", "-", "--scene", "-"}), HasSubstr("standard input"));
   EXPECT_THAT(clearance_message({"r.urdf", "--joints", "q.csv", "--srdf", "-"}), HasSubstr("--srdf"));
-  EXPECT_THAT(clearance_message({"r.urdf", "--joints", "q.csv", "--limit", "0"}), HasSubstr("--limit"));
+  EXPECT_THAT(clearance_message({"r.urdf", "--joints", "q.csv", "--limit", "-1"}),
+              HasSubstr("--limit: -1 is not between 0 and 1e+30"));
   EXPECT_THAT(clearance_message({"r.urdf", "--joints", "q.csv", "--tolerance", "-1"}), HasSubstr("--tolerance"));
   EXPECT_THAT(clearance_message({"r.urdf", "--joints", "q.csv", "-o", "c.json"}), HasSubstr(".csv"));
   EXPECT_THAT(clearance_message({"r.urdf", "--joints", "q.csv", "--write-srdf", "c.xml"}), HasSubstr(".srdf"));

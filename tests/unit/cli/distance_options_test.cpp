@@ -54,6 +54,7 @@ TEST(DistanceOptions, AllAtOnce) {
   EXPECT_TRUE(of_library.surfaces_only);
   ASSERT_EQ(outputs_of(options).size(), 3u);
   EXPECT_EQ(*outputs_of(options)[0].file, "d.CSV");
+  EXPECT_EQ(distance_options(parsed_distance({"a.obj", "b.obj", "--limit", "0"})).limit, 0);
   EXPECT_TRUE(parsed_distance({"-q", "a.obj", "a.obj"}).quiet);
   EXPECT_TRUE(parsed_distance({"--help"}).help);
   EXPECT_TRUE(parsed_distance({"-h", "a.obj"}).help);
@@ -68,7 +69,8 @@ TEST(DistanceOptions, WrongOnesAreNamed) {
   EXPECT_THAT(distance_message({"a.obj", "b.obj", "--tolerance", "-1"}), HasSubstr("--tolerance: -1 is not between 0"));
   EXPECT_THAT(distance_message({"a.obj", "b.obj", "--tolerance", "nan"}), HasSubstr("--tolerance"));
   EXPECT_THAT(distance_message({"a.obj", "b.obj", "--tolerance", "1mm"}), HasSubstr("'1mm' is not a number"));
-  EXPECT_THAT(distance_message({"a.obj", "b.obj", "--limit", "0"}), HasSubstr("--limit: 0 is not strictly between 0"));
+  EXPECT_THAT(distance_message({"a.obj", "b.obj", "--limit", "-1"}),
+              HasSubstr("--limit: -1 is not between 0 and 1e+30"));
   EXPECT_THAT(distance_message({"a.obj", "b.obj", "--limit", "inf"}), HasSubstr("--limit"));
   EXPECT_THAT(distance_message({"a.obj", "b.obj", "--threads", "1025"}), HasSubstr("--threads: 1025"));
   EXPECT_THAT(distance_message({"a.obj", "b.obj", "--poses"}), HasSubstr("--poses"));
@@ -118,6 +120,7 @@ TEST(DistanceOptions, BallsNeedBodyFilesAndNoOptionOfTriangles) {
   EXPECT_THAT(distance_message({"a.npz", "b.obj", "--balls"}), HasSubstr("'b.obj' is no body file"));
   EXPECT_THAT(distance_message({"a.npz", "b.npz", "--balls", "--surfaces"}), HasSubstr("--surfaces"));
   EXPECT_THAT(distance_message({"a.npz", "b.npz", "--balls", "--limit", "1"}), HasSubstr("--limit"));
+  EXPECT_THAT(distance_message({"a.npz", "b.npz", "--balls", "--limit", "0"}), HasSubstr("--limit"));
 }
 
 TEST(DistanceOptions, PicturesAndPages) {

@@ -108,7 +108,53 @@ TEST(PairPicture, ACommonPointShowsThroughBalls) {
   EXPECT_NEAR(x, 600, 2);
 }
 
-/// The legend says which balls are solid and which are rings, if there are any.
+/// A small ball of one solid in the middle of a large one of the other: it is seen as if it were alone, but for a few
+/// wires in front of it.
+TEST(PairPicture, ABallThatHoldsOneOfTheOtherSolidDoesNotHideIt) {
+  PairPicture pair;
+  const Mesh box = test::make_box({1, 1, 1});
+  append(box, pair.mesh);
+  append(box, pair.mesh);
+  pair.triangles_of_a = pair.triangles_of_b = pair.mesh.triangles.size() / 2;
+  const Picture without = draw_pair(pair, kFront);
+  const std::vector<Ball> large = {{{0.5, 0.5, 0.5}, 0.45}}, small = {{{0.5, 0.5, 0.5}, 0.1}};
+  for (const bool is_a_large : {true, false}) {
+    auto& outer = is_a_large ? pair.inside_a : pair.inside_b;
+    auto& inner = is_a_large ? pair.inside_b : pair.inside_a;
+    outer.clear();
+    inner = small;
+    const Picture alone = draw_pair(pair, kFront);
+    outer = large;
+    const Picture both = draw_pair(pair, kFront);
+    std::size_t seen = 0, same = 0;
+    for (const auto& [x, y] : changed_pixels(without, alone)) {
+      const std::size_t at = (y * alone.width + x) * 3;
+      ++seen;
+      same += std::equal(&alone.rgb[at], &alone.rgb[at] + 3, &both.rgb[at]) ? 1 : 0;
+    }
+    EXPECT_GT(seen, 5000u);
+    EXPECT_GT(same, seen / 2);
+    EXPECT_GT(changed_pixels(alone, both).size(), 1000u);  // there are wires
+  }
+}
+
+/// Small balls of large solids are not hidden by the point.
+TEST(PairPicture, PointsAreSmallerThanBalls) {
+  PairPicture pair = two_boxes();
+  pair.on_a = pair.on_b = {0.5, 0.5, 0.5};
+  const auto pixels_of_point = [&](double radius) {
+    pair.inside_a = pair.inside_b = {{{0.5, 0.5, 0.5}, radius}};
+    pair.has_points = pair.is_hit = false;
+    const Picture before = draw_pair(pair, kFront);
+    pair.has_points = pair.is_hit = true;
+    return changed_pixels(before, draw_pair(pair, kFront)).size();
+  };
+  const std::size_t of_large = pixels_of_point(0.4), of_small = pixels_of_point(0.03);
+  EXPECT_GT(of_small, 20u);
+  EXPECT_LT(3 * of_small, of_large);
+}
+
+/// The legend says which balls are solid and which are rings, if there are any, and whether they decided.
 TEST(PairPicture, TheLegendNamesTheBallsThatAreDrawn) {
   PairPicture pair = two_boxes();
   const std::vector<Ball> one = {{{0.5, 0.5, 0.5}, 0.4}};
@@ -121,6 +167,12 @@ TEST(PairPicture, TheLegendNamesTheBallsThatAreDrawn) {
   const std::set<std::vector<std::uint8_t>> legends = {legend_of({}, {}), legend_of(one, {}), legend_of({}, one),
                                                        legend_of(one, one)};
   EXPECT_EQ(legends.size(), 4u);
+  const auto decided = legend_of(one, one);
+  pair.balls_decide = false;
+  EXPECT_NE(legend_of(one, one), decided);
+  const auto no_balls = legend_of({}, {});
+  pair.balls_decide = true;
+  EXPECT_EQ(legend_of({}, {}), no_balls);
 }
 
 std::set<std::pair<std::uint32_t, std::uint32_t>> pixels_of(const std::string& text) {

@@ -251,8 +251,9 @@ void draw_band(const Scene& scene, const Panel& panel, const Camera& camera, con
 void draw_on_top(const Mark& mark, const Scene& scene, const Panel& panel, const Camera& camera, Picture& picture) {
   const ScreenPoint at = camera.project(mark.centre);
   const float middle_x = at.x / kCpuSamples, middle_y = at.y / kCpuSamples;
-  const float rim = 1.5f * static_cast<float>(text_scale(picture));
-  const float radius = std::max(mark.radius * camera.scale_at(at.nearness) / kCpuSamples, 2 * rim);
+  // Two rims around a small mark are as wide as the mark, and those around a large one as wide as letters are thick.
+  const float radius = std::max(mark.radius * camera.scale_at(at.nearness) / kCpuSamples, 1.5f);
+  const float rim = std::min(1.5f * static_cast<float>(text_scale(picture)), 0.5f * radius);
   const Vector3f& fill = scene.palette[static_cast<std::size_t>(mark.value)];
   const auto width = static_cast<float>(panel.width), height = static_cast<float>(picture.height);
   const float reach = radius + 2 * rim + 1;
