@@ -64,6 +64,17 @@ TEST_F(BoundaryOfATool, AWallBelowTheLeastOneIsAnErrorWithItsPlace) {
   EXPECT_LE(walls["places"][0]["area"], 9.6 * (1 + 1e-12));
 }
 
+// Here balls at edges, which are as large as some deltas, are far smaller than the wall.
+TEST_F(BoundaryOfATool, PlacesOfAWallThatIsFarThinnerThanDemandedAreInTheWall) {
+  test::write_file(path("foil.obj"), test::to_obj(test::make_box({2, 2, 0.02})));
+  EXPECT_EQ(run_cpu({"foil.obj", "--min-wall", "0.25", "--report", "r.json"}).exit_code, 8);
+  const nlohmann::json places = report()["boundary"]["walls"][0]["places"];
+  ASSERT_EQ(places.size(), 1u);
+  EXPECT_GT(places[0]["area"], 7.5);
+  EXPECT_GE(places[0]["lower"], 0.02 * 0.98);
+  EXPECT_LE(places[0]["upper"], 0.02 * 1.02);
+}
+
 TEST_F(BoundaryOfATool, AWallAsThinAsTheLeastOneIsProved) {
   const ToolResult result = run_cpu({"plate.obj", "--min-wall", "0.2", "--min-gap", "0.5", "--report", "r.json"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
