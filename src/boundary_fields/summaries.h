@@ -55,7 +55,7 @@ CurvatureRecord summarise_curvature(const Mesh& mesh, const BoundaryFields& fiel
 struct BoundaryRecord {
   std::optional<ThicknessRecord> thickness;
   std::optional<CurvatureRecord> curvature;
-  std::vector<WallRecord> walls;  ///< Of --min-wall and --min-gap.
+  std::vector<WallRecord> walls;  ///< Of --least-wall, --least-gap, --min-wall and --min-gap.
 };
 
 }  // namespace medial_vk

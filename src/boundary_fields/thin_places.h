@@ -18,18 +18,19 @@ struct ThinPlace {
   double area = 0;       ///< Of the boundary; 0: of less than a point's share.
 };
 
-/// How the thinnest wall, or gap, compares with what is demanded.
+/// The thinnest wall, or gap, and how it compares with what is demanded.
 struct WallRecord {
   enum class Verdict : std::uint8_t {
     kThickEnough,  ///< Proved.
     kTooThin,      ///< There is a ball that is smaller.
     kUndecided,    ///< No smaller ball was found, but one may exist.
+    kMeasured,     ///< Nothing is demanded.
   };
 
   ThicknessSide side = ThicknessSide::kWalls;
-  double demanded = 0;      ///< The least diameter, in mesh units.
+  double demanded = 0;      ///< The least diameter, in mesh units; 0: nothing.
   double object_angle = 0;  ///< Of the balls that count, at least, in radians.
-  LeastWall found = {};     ///< Of walls below `demanded`.
+  LeastWall found = {};     ///< Of walls below `demanded`; of all if nothing is.
   Verdict verdict = Verdict::kThickEnough;
   std::vector<ThinPlace> places = {};  ///< If it is too thin: the largest first.
 };

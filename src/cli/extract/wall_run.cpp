@@ -113,17 +113,31 @@ class PlaceSearch {
   ThicknessOptions how_;
 };
 
+Result<LeastWall> search(const IndexedMesh& mesh, const WallRecord& record, double limit, double width,
+                         const Options& options, const ProgressCallback& shown) {
+  LeastWallOptions how;
+  how.side = record.side;
+  how.object_angle = record.object_angle;
+  how.limit = limit;
+  how.width = width;
+  how.threads = options.threads;
+  return measure_least_wall(mesh, how, shown);
+}
+
+Result<WallRecord> measure(const IndexedMesh& mesh, ThicknessSide side, const Options& options, Progress& progress) {
+  WallRecord record = {.side = side, .object_angle = options.wall_angle, .verdict = WallRecord::Verdict::kMeasured};
+  const auto shown = [&](double done) { progress.update(name_of(record), done); };
+  Result<LeastWall> found = search(mesh, record, 0, kThinShare, options, shown);
+  if (!found) return found.error();
+  record.found = std::move(found).value();
+  return record;
+}
+
 Result<WallRecord> compare(const IndexedMesh& mesh, ThicknessSide side, double demanded, const Options& options,
                            Progress& progress) {
   WallRecord record = {.side = side, .demanded = demanded, .object_angle = options.wall_angle};
-  LeastWallOptions how;
-  how.side = side;
-  how.object_angle = options.wall_angle;
-  how.limit = demanded * (1 - kHalfShare);
-  how.width = kHalfShare;
-  how.threads = options.threads;
   const auto shown = [&](double done) { progress.update(name_of(record), done); };
-  Result<LeastWall> found = measure_least_wall(mesh, how, shown);
+  Result<LeastWall> found = search(mesh, record, demanded * (1 - kHalfShare), kHalfShare, options, shown);
   if (!found) return found.error();
   record.found = std::move(found).value();
   if (record.found.thinnest) {
@@ -143,12 +157,23 @@ Result<std::vector<WallRecord>> measure_walls(const IndexedMesh& mesh, const Opt
                                               std::vector<StageTime>& times) {
   std::vector<WallRecord> records;
   Stopwatch stopwatch;
-  for (const auto& [side, demanded] :
-       {std::pair{ThicknessSide::kWalls, options.min_wall}, std::pair{ThicknessSide::kGaps, options.min_gap}}) {
-    if (demanded == 0) continue;
-    Result<WallRecord> record = compare(mesh, side, demanded, options, progress);
-    if (!record) return record.error();
-    records.push_back(std::move(record).value());
+  struct Side {
+    ThicknessSide side;
+    bool is_measured;
+    double demanded;
+  };
+  for (const auto& [side, is_measured, demanded] : {Side{ThicknessSide::kWalls, options.least_wall, options.min_wall},
+                                                    Side{ThicknessSide::kGaps, options.least_gap, options.min_gap}}) {
+    if (is_measured) {
+      Result<WallRecord> record = measure(mesh, side, options, progress);
+      if (!record) return record.error();
+      records.push_back(std::move(record).value());
+    }
+    if (demanded > 0) {
+      Result<WallRecord> record = compare(mesh, side, demanded, options, progress);
+      if (!record) return record.error();
+      records.push_back(std::move(record).value());
+    }
   }
   if (!records.empty()) times.push_back({"walls", stopwatch.lap()});
   return records;
@@ -156,6 +181,11 @@ Result<std::vector<WallRecord>> measure_walls(const IndexedMesh& mesh, const Opt
 
 std::string describe_walls(const WallRecord& record) {
   const Bounds& least = record.found.diameter;
+  if (!record.found.thinnest && record.verdict == WallRecord::Verdict::kMeasured) {
+    return fmt::format(
+        "no {} thinner than {:.6g} was found; none is thinner than {:.6g}, by proof for object angles of {:g} and more",
+        name_of(record), least.upper, least.lower, record.object_angle);
+  }
   const std::string wanted = fmt::format("{:.6g}", record.demanded);
   if (record.verdict == WallRecord::Verdict::kThickEnough) {
     return fmt::format(
@@ -167,10 +197,12 @@ std::string describe_walls(const WallRecord& record) {
                        least.lower);
   }
   const WallBall& ball = *record.found.thinnest;
+  const bool is_measured = record.verdict == WallRecord::Verdict::kMeasured;
   return fmt::format(
-      "the thinnest {} is {:.6g} to {:.6g}, below {}: between {:.6g}, {:.6g}, {:.6g} and {:.6g}, {:.6g}, {:.6g}",
-      name_of(record), least.lower, least.upper, wanted, ball.a[0], ball.a[1], ball.a[2], ball.b[0], ball.b[1],
-      ball.b[2]);
+      "the thinnest {} is {:.6g} to {:.6g}{}: between {:.6g}, {:.6g}, {:.6g} and {:.6g}, {:.6g}, {:.6g}{}",
+      name_of(record), least.lower, least.upper, is_measured ? "" : ", below " + wanted, ball.a[0], ball.a[1],
+      ball.a[2], ball.b[0], ball.b[1], ball.b[2],
+      is_measured ? fmt::format("; proved for object angles of {:g} and more", record.object_angle) : "");
 }
 
 std::string places_table(const std::vector<WallRecord>& records) {
@@ -198,6 +230,7 @@ Status verdict(const std::vector<WallRecord>& records) {
   std::string failed;
   for (const WallRecord& record : records) {
     if (record.verdict == WallRecord::Verdict::kThickEnough) continue;
+    if (record.verdict == WallRecord::Verdict::kMeasured) continue;
     failed += (failed.empty() ? "" : "; ") + describe_walls(record);
   }
   return failed.empty() ? Status() : Status(Error{kWallTooThin, failed});

@@ -61,6 +61,8 @@ void declare(CLI::App& app, Options& options) {
   add.real("--thickness-delta", {0, 0.1, false}, " of the longest side", options.thickness_delta);
   add.real("--thickness-width", {1e-6, 1}, " of the lower end", options.thickness_width);
   add.flag("--curvature", options.curvature);
+  add.flag("--least-wall", options.least_wall);
+  add.flag("--least-gap", options.least_gap);
   add.real("--min-wall", {0, 1e18, false}, " in the units of the mesh", options.min_wall);
   add.real("--min-gap", {0, 1e18, false}, " in the units of the mesh", options.min_gap);
   add.real("--wall-angle", {std::numbers::pi / 4, std::numbers::pi / 2, false}, " radians", options.wall_angle);
@@ -161,8 +163,9 @@ Status check_boundary_options(const Options& options) {
         "--boundary-edge is about vertices of the boundary: use it with --boundary, --show boundary or --curvature");
   }
   const Options usual;
-  if (options.wall_angle != usual.wall_angle && options.min_wall == 0 && options.min_gap == 0) {
-    return usage_error("--wall-angle is about walls and gaps: use it with --min-wall or --min-gap");
+  if (options.wall_angle != usual.wall_angle && !options.needs_walls()) {
+    return usage_error(
+        "--wall-angle is about walls and gaps: use it with --least-wall, --least-gap, --min-wall or --min-gap");
   }
   const std::pair<const char*, bool> given[] = {
       {"--thickness-delta", options.thickness_delta != usual.thickness_delta},
