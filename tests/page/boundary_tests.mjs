@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import {box, ellipsoid} from './fixtures.mjs';
 import {assertQuiet, kSmall, look, numbersIn, openPart, selectOption, show} from './steps.mjs';
 
-const kMeasured = [...kSmall, '--thickness', '--curvature', '--boundary-edge', '0.2', '--boundary', 'boundary.ply', '--ascii'];
+const kMeasured = [...kSmall, '--thickness', '--curvature', '--least-wall', '--boundary-edge', '0.2', '--boundary', 'boundary.ply', '--ascii'];
 
 /** The vertices of the PLY as text, by the names of their numbers. */
 function vertices(text) {
@@ -31,6 +31,8 @@ export const boundaryTests = {
   async boundary(context) {
     const {page} = await openPart(context, {mesh: box(), options: kMeasured});
     const wanted = vertices(context.workshop.read('boundary.ply').toString());
+    const report = await page.evaluate(`document.getElementById('report-body').textContent`);
+    assert.ok(/Walls and gaps.*wallsnonemeasured0\.5[89]\d*0\.6\(/.test(report), report);
     await show(page, ['mesh']);
     const glass = await look(page);
     const pictures = new Set([glass.mark]);
