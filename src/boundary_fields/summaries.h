@@ -46,6 +46,7 @@ struct CurvatureRecord {
   };
   std::optional<Range> kappa_1, kappa_2;  ///< None: unknown at all vertices.
   double unknown_share = 0;               ///< Of the area: where a curvature is not known.
+  double none_share = 0;                  ///< Of the area: where neither is.
   std::optional<double> median_error;     ///< Over vertices with an estimate; none: there are none.
 };
 

@@ -92,7 +92,7 @@ TEST_F(BoundaryOfATool, AWallAsThinAsTheLeastOneIsProved) {
 
 TEST_F(BoundaryOfATool, TheLeastWallAndGapAreMeasuredWithTheirContacts) {
   Mesh both = test::make_box({2, 2, 0.2});
-  append(both, test::moved(test::make_box({2, 2, 0.5}), {0, 0, 0.3}));
+  test::append(both, test::moved(test::make_box({2, 2, 0.5}), {0, 0, 0.3}));
   test::write_file(path("plates.obj"), test::to_obj(both));
   const ToolResult result = run_cpu({"plates.obj", "--least-wall", "--least-gap", "--report", "r.json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;

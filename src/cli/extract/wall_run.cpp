@@ -183,8 +183,9 @@ std::string describe_walls(const WallRecord& record) {
   const Bounds& least = record.found.diameter;
   if (!record.found.thinnest && record.verdict == WallRecord::Verdict::kMeasured) {
     return fmt::format(
-        "no {} thinner than {:.6g} was found; none is thinner than {:.6g}, by proof for object angles of {:g} and more",
-        name_of(record), least.upper, least.lower, record.object_angle);
+        "none was found that is thinner than {:.6g}; that no {} is thinner than {:.6g} is proved for object "
+        "angles of {:g} and more",
+        least.upper, name_of(record), least.lower, record.object_angle);
   }
   const std::string wanted = fmt::format("{:.6g}", record.demanded);
   if (record.verdict == WallRecord::Verdict::kThickEnough) {

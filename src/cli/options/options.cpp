@@ -253,6 +253,18 @@ struct OptionParser::Declared {
   Options options;
 };
 
+namespace {
+
+/// "; thickness is an option: medial-vk plate.obj --thickness" for an option where a command would be.
+std::string hint_at_option(const CLI::App& app, const std::vector<std::string>& arguments) {
+  if (arguments.size() < 2 || arguments[0].starts_with('-') || arguments[1].starts_with('-')) return {};
+  const CLI::Option* option = app.get_option_no_throw("--" + arguments[0]);
+  if (!option || option->get_expected_max() > 0) return {};
+  return fmt::format("; {0} is an option: medial-vk {1} --{0}", arguments[0], arguments[1]);
+}
+
+}  // namespace
+
 OptionParser::OptionParser() : declared_(std::make_unique<Declared>()) {
   declared_->app.set_help_flag();  // The text of --help is written by hand.
   declared_->app.allow_extras();   // Reported here, with a suggestion.
@@ -264,7 +276,9 @@ OptionParser::~OptionParser() = default;
 Result<Options> OptionParser::parse(const std::vector<std::string>& arguments) {
   declared_->app.forget();
   Options& options = declared_->options = Options();
-  if (Status status = parse_arguments(declared_->app, arguments, "one mesh at a time"); !status) return status.error();
+  if (Status status = parse_arguments(declared_->app, arguments, "one mesh at a time"); !status) {
+    return usage_error(status.error().message + hint_at_option(declared_->app, arguments));
+  }
   if (Status status = check_combinations(options); !status) return status.error();
   if (options.action != Action::kExtract) return options;
   if (Status status = complete_files(options); !status) return status.error();

@@ -271,6 +271,7 @@ Json curvature_json(const std::optional<CurvatureRecord>& record) {
   return {{"kappa_1", range(record->kappa_1)},
           {"kappa_2", range(record->kappa_2)},
           {"unknown_share", record->unknown_share},
+          {"none_share", record->none_share},
           {"median_error", record->median_error ? Json(*record->median_error) : Json(nullptr)}};
 }
 
