@@ -214,7 +214,7 @@ TEST_F(CurvatureCommand, SaysWhatIsWrong) {
              "x,y,z,radius,spoke_a_x,spoke_a_y,spoke_a_z,spoke_b_x,spoke_b_y,spoke_b_z\n0,0,0,1,2,0,0,0,1,0\n");
   EXPECT_THAT(run({"turned.csv"}).err, HasSubstr("turned.csv:2: a spoke is no unit vector"));
   for (const std::vector<std::string>& wrong : std::vector<std::vector<std::string>>{{},
-                                                                                     {"bad.csv", "-o", "c.glb"},
+                                                                                     {"bad.csv", "-o", "c.vtp"},
                                                                                      {"bad.csv", "--step", "4"},
                                                                                      {"bad.csv", "--smooth"},
                                                                                      {"bad.csv", "--method", "other"},

@@ -36,6 +36,10 @@ constexpr double kCoarseWidth = 0.1, kFineWidth = kThinShare;
 constexpr std::uint32_t kFewQueries = 100;
 static_assert((1 - kThinShare) * (1 + kFineWidth) < 1);
 
+// Of the longest side. Wider gaps are not searched for: outside there is always more space, and most of the time would
+// go to balls as large as the solid.
+constexpr double kGreatestGap = 0.25;
+
 const char* name_of(const WallRecord& record) { return record.side == ThicknessSide::kWalls ? "wall" : "gap"; }
 
 /// Finds places that are too thin.
@@ -127,7 +131,8 @@ Result<LeastWall> search(const IndexedMesh& mesh, const WallRecord& record, doub
 Result<WallRecord> measure(const IndexedMesh& mesh, ThicknessSide side, const Options& options, Progress& progress) {
   WallRecord record = {.side = side, .object_angle = options.wall_angle, .verdict = WallRecord::Verdict::kMeasured};
   const auto shown = [&](double done) { progress.update(name_of(record), done); };
-  Result<LeastWall> found = search(mesh, record, 0, kThinShare, options, shown);
+  const double limit = side == ThicknessSide::kGaps ? kGreatestGap * mesh.longest_side() : 0;
+  Result<LeastWall> found = search(mesh, record, limit, kThinShare, options, shown);
   if (!found) return found.error();
   record.found = std::move(found).value();
   return record;
