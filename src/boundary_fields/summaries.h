@@ -46,6 +46,7 @@ struct CurvatureRecord {
   };
   std::optional<Range> kappa_1, kappa_2;  ///< None: unknown at all vertices.
   double unknown_share = 0;               ///< Of the area: where a curvature is not known.
+  double none_share = 0;                  ///< Of the area: where neither is.
   std::optional<double> median_error;     ///< Over vertices with an estimate; none: there are none.
 };
 
@@ -55,7 +56,7 @@ CurvatureRecord summarise_curvature(const Mesh& mesh, const BoundaryFields& fiel
 struct BoundaryRecord {
   std::optional<ThicknessRecord> thickness;
   std::optional<CurvatureRecord> curvature;
-  std::vector<WallRecord> walls;  ///< Of --min-wall and --min-gap.
+  std::vector<WallRecord> walls;  ///< Of --least-wall, --least-gap, --min-wall and --min-gap.
 };
 
 }  // namespace medial_vk

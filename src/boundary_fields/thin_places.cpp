@@ -42,8 +42,9 @@ std::vector<ThinPlace> group_thin_places(std::span<const Point> points, std::spa
   std::vector<Point> thin, centres;
   std::vector<Bounds> intervals;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double upper = at_points[i].diameter.upper;
-    if (upper < range.lower || upper >= range.upper || at_points[i].object_angle < object_angle) continue;
+    const Bounds& interval = at_points[i].diameter;
+    if (interval.lower < range.lower || interval.upper >= range.upper) continue;
+    if (at_points[i].object_angle < object_angle) continue;
     thin.push_back(points[i]);
     centres.push_back(at_points[i].ball.centre);
     intervals.push_back(at_points[i].diameter);

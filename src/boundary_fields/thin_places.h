@@ -18,18 +18,19 @@ struct ThinPlace {
   double area = 0;       ///< Of the boundary; 0: of less than a point's share.
 };
 
-/// How the thinnest wall, or gap, compares with what is demanded.
+/// The thinnest wall, or gap, and how it compares with what is demanded.
 struct WallRecord {
   enum class Verdict : std::uint8_t {
     kThickEnough,  ///< Proved.
     kTooThin,      ///< There is a ball that is smaller.
     kUndecided,    ///< No smaller ball was found, but one may exist.
+    kMeasured,     ///< Nothing is demanded.
   };
 
   ThicknessSide side = ThicknessSide::kWalls;
-  double demanded = 0;      ///< The least diameter, in mesh units.
+  double demanded = 0;      ///< The least diameter, in mesh units; 0: nothing.
   double object_angle = 0;  ///< Of the balls that count, at least, in radians.
-  LeastWall found = {};     ///< Of walls below `demanded`.
+  LeastWall found = {};     ///< Of walls below `demanded`; of all if nothing is.
   Verdict verdict = Verdict::kThickEnough;
   std::vector<ThinPlace> places = {};  ///< If it is too thin: the largest first.
 };
@@ -39,7 +40,7 @@ struct WallRecord {
 inline constexpr double kThinShare = 0.01;
 
 /// Groups the points in walls that are proved to be too thin, and not thinner than walls can be: with a ball of at
-/// least the object angle and an upper end in the range. Each point stands for `area_of_point`; those whose balls have
+/// least the object angle and an interval in the range. Each point stands for `area_of_point`; those whose balls have
 /// centres within three sides of a square of this area are in one place.
 std::vector<ThinPlace> group_thin_places(std::span<const Point> points, std::span<const Thickness> at_points,
                                          double area_of_point, const Bounds& range, double object_angle);

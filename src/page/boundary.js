@@ -2,13 +2,15 @@
 import {block} from './data.js';
 import {brief} from './format.js';
 
-/** Null if nothing was measured. `described`: the colours, with their legends, and the fields, by name. */
+/** Null if nothing was measured. `described`: the colours, with their legends, the fields, by name, and the fields of
+ * principal directions, both or none. */
 export function readBoundary(described) {
   if (!described) return null;
   return {
     colours: described.colours.map((colour) => ({...colour, ofVertices: block(`colour-${colour.name}`, Uint8Array)})),
     fields: Object.fromEntries(described.fields.map((name) => [name, block(`field-${name}`, Float32Array)])),
     states: described.states,
+    directions: described.directions.map((name) => block(`field-${name}`, Int16Array)),
   };
 }
 

@@ -3,6 +3,7 @@ import {vertexValues} from './boundary.js';
 import {kAttributes, kSheetColours, kViridisCss, sheetColour} from './colours.js';
 import {brief, grouped, lengthFormat} from './format.js';
 import {bindDialogs, bindFold, bindKeys, byId, followTheme, rows} from './page_parts.js';
+import {kStrokesNote} from './strokes.js';
 import {kLayers} from './viewer.js';
 
 const kStep = Math.PI / 36;      // One press of an arrow key.
@@ -72,6 +73,10 @@ export class Controls {
       byId(id).addEventListener('input', () => this.refresh());
     }
     byId('mesh-colour').addEventListener('input', () => this.paintMesh());
+    byId('strokes').addEventListener('change', (event) => {
+      this.viewer.showStrokes(event.target.checked);
+      this.refreshColour();
+    });
     byId('up').addEventListener('change', (event) => this.viewer.setUp(event.target.value));
     byId('reset').addEventListener('click', () => this.viewer.resetView());
     byId('clear-picked').addEventListener('click', () => this.choose(-1));
@@ -96,6 +101,7 @@ export class Controls {
   offerColours() {
     const {boundary} = this.scene;
     byId('boundary').hidden = !boundary;
+    byId('offer-strokes').hidden = !boundary?.directions.length;
     for (const {name, label} of boundary?.colours ?? []) byId('mesh-colour').append(new Option(label, name));
   }
 
@@ -148,6 +154,11 @@ export class Controls {
   }
 
   legendOfMesh() {
+    const note = byId('strokes').checked ? [Object.assign(document.createElement('p'), {textContent: kStrokesNote})] : [];
+    return [...this.legendOfMeshColour(), ...note];
+  }
+
+  legendOfMeshColour() {
     const colour = this.scene.boundary?.colours.find(({name}) => name === byId('mesh-colour').value);
     if (!colour) return [];
     const title = Object.assign(document.createElement('p'), {textContent: colour.title});

@@ -88,6 +88,15 @@ function fatness({proved, angles}) {
   return section(kTitles.fatness, element('p', text), table(angles));
 }
 
+/** The least walls and gaps. */
+function walls(all) {
+  const rows = all.map(({side, demanded, verdict, proved, thinnest}) => [side, demanded === null ? 'none' : plain(demanded),
+    verdict, plain(proved), thinnest ? plain(2 * thinnest.radius) : 'none',
+    thinnest ? thinnest.contacts.map((at) => `(${at.map(plain).join(', ')})`).join(' and ') : '']);
+  const columns = [['of'], ['demanded', true], ['verdict'], ['none is thinner than', true], ['thinnest found', true], ['between']];
+  return section('Walls and gaps', tableOf(columns.map(([name, number = false]) => ({name, number})), rows));
+}
+
 /** Fills `target`. */
 export function showReport(target, report) {
   target.append(run(report));
@@ -98,6 +107,7 @@ export function showReport(target, report) {
   }
   if (report.sheets?.length) target.append(sheets(report.sheets));
   if (report.fatness) target.append(fatness(report.fatness));
+  if (report.boundary?.walls?.length) target.append(walls(report.boundary.walls));
   if (report.levels?.length) target.append(section(kTitles.levels, table(report.levels)));
   target.append(certificate(report.certificate));
   target.append(report.device ? section(kTitles.device, rows(element('dl'), report.device))

@@ -6,6 +6,7 @@ import {kAttributes, kThemes} from './colours.js';
 import {kCornersOfABall, MeshLayer} from './kernels.js';
 import {makeUniforms, PickedLayer, PointLayers} from './layers.js';
 import {pick} from './pick.js';
+import {makeStrokes} from './strokes.js';
 import {creaseGeometry, surfaceGeometry} from './surface.js';
 import {View} from './view.js';
 
@@ -19,13 +20,16 @@ export class Viewer extends View {
   /** `context`: of WebGL 2, without antialiasing. */
   constructor(canvas, context, scene) {
     const half = [0, 1, 2].map((k) => (scene.upper[k] - scene.lower[k]) / 2 / scene.scale);
+    const surface = surfaceGeometry(scene);
     super(canvas, context, makeUniforms(scene), {vertices: scene.vertices, half});
     this.scene = scene;
-    this.mesh = new MeshLayer(surfaceGeometry(scene), this.uniforms);
+    this.mesh = new MeshLayer(surface, this.uniforms);
+    this.makeStrokes = () => makeStrokes(scene, surface, this.uniforms, Math.hypot(...half));
     this.points = new PointLayers(scene, this.uniforms, this.renderer.capabilities.maxTextureSize);
     this.picked = new PickedLayer(this.uniforms);
     this.model.add(...this.mesh.objects, ...this.picked.objects);
     this.shown = {mesh: true, balls: false, points: false, spokes: false, sheets: false};
+    this.hasStrokes = false;
     this.plane = [0, 0, 0, 1];
     this.least = {angle: -Infinity, radius: -Infinity};
     this.ballCount = 0;
@@ -38,6 +42,7 @@ export class Viewer extends View {
     this.shown[name] = visible;
     if (name === 'mesh') {
       for (const object of this.mesh.objects) object.visible = visible;
+      this.showStrokes(this.hasStrokes);
     } else if (visible || this.points.made[name]) {
       const object = this.points.get(name);
       if (!object.parent) this.model.add(object);
@@ -69,6 +74,14 @@ export class Viewer extends View {
     const colour = this.scene.boundary?.colours.find((each) => each.name === name);
     this.isPainted = Boolean(colour);
     this.mesh.paint(colour ? (array) => cornerColours(colour.ofVertices, this.scene.triangles, array) : null);
+    this.draw();
+  }
+
+  /** On the mesh, where that is shown; made when they are first shown. */
+  showStrokes(visible) {
+    this.hasStrokes = visible;
+    if (visible && !this.strokes) this.model.add(this.strokes = this.makeStrokes());
+    if (this.strokes) this.strokes.visible = visible && this.shown.mesh;
     this.draw();
   }
 

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
@@ -16,6 +18,7 @@ using test::read_file;
 using test::ToolResult;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::Not;
 
 class BoundaryOfATool : public test::ToolTest {
@@ -64,6 +67,17 @@ TEST_F(BoundaryOfATool, AWallBelowTheLeastOneIsAnErrorWithItsPlace) {
   EXPECT_LE(walls["places"][0]["area"], 9.6 * (1 + 1e-12));
 }
 
+// Here balls at edges, which are as large as some deltas, are far smaller than the wall.
+TEST_F(BoundaryOfATool, PlacesOfAWallThatIsFarThinnerThanDemandedAreInTheWall) {
+  test::write_file(path("foil.obj"), test::to_obj(test::make_box({2, 2, 0.02})));
+  EXPECT_EQ(run_cpu({"foil.obj", "--min-wall", "0.25", "--report", "r.json"}).exit_code, 8);
+  const nlohmann::json places = report()["boundary"]["walls"][0]["places"];
+  ASSERT_EQ(places.size(), 1u);
+  EXPECT_GT(places[0]["area"], 7.5);
+  EXPECT_GE(places[0]["lower"], 0.02 * 0.98);
+  EXPECT_LE(places[0]["upper"], 0.02 * 1.02);
+}
+
 TEST_F(BoundaryOfATool, AWallAsThinAsTheLeastOneIsProved) {
   const ToolResult result = run_cpu({"plate.obj", "--min-wall", "0.2", "--min-gap", "0.5", "--report", "r.json"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -76,16 +90,39 @@ TEST_F(BoundaryOfATool, AWallAsThinAsTheLeastOneIsProved) {
   EXPECT_EQ(walls[1]["side"], "gaps");
 }
 
+TEST_F(BoundaryOfATool, TheLeastWallAndGapAreMeasuredWithTheirContacts) {
+  Mesh both = test::make_box({2, 2, 0.2});
+  test::append(both, test::moved(test::make_box({2, 2, 0.5}), {0, 0, 0.3}));
+  test::write_file(path("plates.obj"), test::to_obj(both));
+  const ToolResult result = run_cpu({"plates.obj", "--least-wall", "--least-gap", "--report", "r.json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("  walls     the thinnest wall is 0.19"));
+  EXPECT_THAT(result.err, HasSubstr("  gaps      the thinnest gap is 0.09"));
+  EXPECT_THAT(result.out, IsEmpty());
+  const nlohmann::json walls = report()["boundary"]["walls"];
+  ASSERT_EQ(walls.size(), 2u);
+  const std::array<double, 2> truths = {0.2, 0.1};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double truth = truths[i];
+    EXPECT_EQ(walls[i]["verdict"], "measured");
+    EXPECT_TRUE(walls[i]["demanded"].is_null());
+    EXPECT_LE(walls[i]["proved"], truth * (1 + 1e-12));
+    EXPECT_GE(walls[i]["proved"], truth * 0.98);
+    const nlohmann::json& contacts = walls[i]["thinnest"]["contacts"];
+    EXPECT_NEAR(std::abs(contacts[0][2].get<double>() - contacts[1][2].get<double>()), truth, 1e-9);
+  }
+}
+
 TEST_F(BoundaryOfATool, LeastWallsNeedAClosedMeshAndAnglesALeastWall) {
   Mesh open = test::make_box({2, 2, 0.2});
   open.triangles.pop_back();
   test::write_file(path("open.obj"), test::to_obj(open));
   const ToolResult result = run_cpu({"open.obj", "--min-wall", "0.1"});
   EXPECT_EQ(result.exit_code, 3);
-  EXPECT_THAT(result.err, HasSubstr("--min-wall and --min-gap need a closed one"));
+  EXPECT_THAT(result.err, HasSubstr("the least wall, or gap, is that of a closed one"));
   const ToolResult angle = run_cpu({"plate.obj", "--wall-angle", "1.3"});
   EXPECT_EQ(angle.exit_code, 2);
-  EXPECT_THAT(angle.err, HasSubstr("use it with --min-wall or --min-gap"));
+  EXPECT_THAT(angle.err, HasSubstr("use it with --least-wall, --least-gap, --min-wall or --min-gap"));
 }
 
 TEST_F(BoundaryOfATool, AllOutputsAreWritten) {

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
@@ -81,6 +83,70 @@ double median_of(const nlohmann::json& report, std::size_t k, bool outside) {
   return values.empty() ? 0 : values[values.size() / 2];
 }
 
+/// A file of glTF in one piece, with attributes of its only primitive.
+class GlbPoints {
+ public:
+  explicit GlbPoints(std::string bytes) : bytes_(std::move(bytes)) {
+    std::uint32_t length = 0;
+    std::memcpy(&length, bytes_.data() + kJsonLength, sizeof(length));
+    document = nlohmann::json::parse(bytes_.substr(kJson, length));
+    buffer_ = kJson + length + kChunkHeader;
+  }
+
+  std::size_t count(const char* name) const { return accessor(name)["count"]; }
+  /// `components` numbers for each point.
+  std::vector<float> values(const char* name, std::size_t components) const {
+    const nlohmann::json& view = document["bufferViews"][accessor(name)["bufferView"].get<std::size_t>()];
+    std::vector<float> values(components * count(name));
+    std::memcpy(values.data(), bytes_.data() + buffer_ + view.value("byteOffset", std::size_t{0}),
+                values.size() * sizeof(float));
+    return values;
+  }
+
+  nlohmann::json document;
+
+ private:
+  static constexpr std::size_t kJsonLength = 12, kJson = 20, kChunkHeader = 8;
+
+  const nlohmann::json& accessor(const char* name) const {
+    const nlohmann::json& attributes = document["meshes"][0]["primitives"][0]["attributes"];
+    return document["accessors"][attributes[name].get<std::size_t>()];
+  }
+
+  std::string bytes_;
+  std::size_t buffer_ = 0;
+};
+
+// What the JSON says of each tip is in the attributes of its point, in float.
+TEST_F(CurvatureCommand, WritesPointsWithAttributesAsGltf) {
+  write_file(scratch_.path("wall.csv"), wall_table(false));
+  ASSERT_EQ(run({"wall.csv", "-q", "-o", "wall.json"}).exit_code, 0);
+  ASSERT_EQ(run({"wall.csv", "-q", "-o", "wall.glb"}).exit_code, 0);
+  const auto wanted = nlohmann::json::parse(read_file(scratch_.path("wall.json")));
+  const GlbPoints points(read_file(scratch_.path("wall.glb")));
+  EXPECT_EQ(points.document["meshes"][0]["primitives"][0]["mode"], 0);
+  EXPECT_EQ(points.document["asset"]["extras"]["curvature"], "fits");
+  ASSERT_EQ(points.count("POSITION"), 3200u);
+  const std::vector<float> kappa = points.values("_KAPPA_1", 1), spokes = points.values("_SPOKE", 3),
+                           places = points.values("POSITION", 3), balls = points.values("_BALL", 1);
+  const nlohmann::json& middle = points.document["nodes"][0]["translation"];
+  const auto in_float = [](const nlohmann::json& x) {
+    return x.is_null() ? 0.0f : static_cast<float>(x.get<double>());
+  };
+  for (std::size_t i = 0; i < 3200; ++i) {
+    const nlohmann::json& ball = wanted["balls"][i / 2];
+    const nlohmann::json& tip = ball["tips"][i % 2];
+    ASSERT_EQ(kappa[i], in_float(tip["kappa"][0])) << i;
+    ASSERT_EQ(balls[i], static_cast<float>(i / 2));
+    if (tip["spoke"].is_null()) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      ASSERT_EQ(spokes[3 * i + k], in_float(tip["spoke"][k])) << i;
+      const double at = ball["centre"][k].get<double>() + ball["radius"].get<double>() * tip["spoke"][k].get<double>();
+      ASSERT_NEAR(places[3 * i + k] + middle[k].get<double>(), at, 0x1p-23) << i;  // floats below 2
+    }
+  }
+}
+
 TEST_F(CurvatureCommand, MeasuresAnybodysBalls) {
   write_file(scratch_.path("wall.csv"), wall_table(false));
   const ToolResult result = run({"wall.csv", "-o", "wall.json", "--report", "report.json"});
@@ -148,7 +214,7 @@ TEST_F(CurvatureCommand, SaysWhatIsWrong) {
              "x,y,z,radius,spoke_a_x,spoke_a_y,spoke_a_z,spoke_b_x,spoke_b_y,spoke_b_z\n0,0,0,1,2,0,0,0,1,0\n");
   EXPECT_THAT(run({"turned.csv"}).err, HasSubstr("turned.csv:2: a spoke is no unit vector"));
   for (const std::vector<std::string>& wrong : std::vector<std::vector<std::string>>{{},
-                                                                                     {"bad.csv", "-o", "c.glb"},
+                                                                                     {"bad.csv", "-o", "c.vtp"},
                                                                                      {"bad.csv", "--step", "4"},
                                                                                      {"bad.csv", "--smooth"},
                                                                                      {"bad.csv", "--method", "other"},

@@ -1,10 +1,10 @@
 // What was measured on the boundary, on the page.
 import assert from 'node:assert/strict';
 
-import {box} from './fixtures.mjs';
+import {box, ellipsoid} from './fixtures.mjs';
 import {assertQuiet, kSmall, look, numbersIn, openPart, selectOption, show} from './steps.mjs';
 
-const kMeasured = [...kSmall, '--thickness', '--curvature', '--boundary-edge', '0.2', '--boundary', 'boundary.ply', '--ascii'];
+const kMeasured = [...kSmall, '--thickness', '--curvature', '--least-wall', '--boundary-edge', '0.2', '--boundary', 'boundary.ply', '--ascii'];
 
 /** The vertices of the PLY as text, by the names of their numbers. */
 function vertices(text) {
@@ -31,6 +31,8 @@ export const boundaryTests = {
   async boundary(context) {
     const {page} = await openPart(context, {mesh: box(), options: kMeasured});
     const wanted = vertices(context.workshop.read('boundary.ply').toString());
+    const report = await page.evaluate(`document.getElementById('report-body').textContent`);
+    assert.ok(/Walls and gaps.*wallsnonemeasured0\.5[89]\d*0\.6\(/.test(report), report);
     await show(page, ['mesh']);
     const glass = await look(page);
     const pictures = new Set([glass.mark]);
@@ -67,9 +69,39 @@ export const boundaryTests = {
     assertQuiet(page);
   },
 
+  /** Strokes along principal directions come and go with their box, and with the mesh. */
+  async boundary_strokes(context) {
+    const options = ['--resolution', '24', '--object-angle', '0.3', '--curvature', '--boundary', 'boundary.ply'];
+    const {page} = await openPart(context, {mesh: ellipsoid(), options});
+    assert.equal(await page.evaluate(`document.getElementById('offer-strokes').hidden`), false);
+    await show(page, ['mesh']);
+    const without = await look(page);
+    assert.ok(!(await page.text('legend')).includes('strokes'));
+    await page.evaluate(`document.getElementById('strokes').click()`);
+    assert.notEqual((await look(page)).mark, without.mark);
+    assert.ok((await page.text('legend')).includes('strokes: long along kappa 1'), await page.text('legend'));
+    // Each is a rectangle of ink before one of white, within the plane of its surface and near it.
+    const [count, farthest] = await page.evaluate(`(() => { const {viewer} = window.medialVk;
+      const places = viewer.strokes.geometry.getAttribute('position').array, {vertices} = viewer.scene;
+      let farthest = 0;
+      for (let i = 0; i < places.length; i += 3) { let nearest = Infinity;
+        for (let v = 0; v < vertices.length; v += 3) nearest = Math.min(nearest, Math.hypot(places[i] - vertices[v],
+          places[i + 1] - vertices[v + 1], places[i + 2] - vertices[v + 2]));
+        farthest = Math.max(farthest, nearest); }
+      return [places.length / 18, farthest]; })()`);
+    assert.ok(count > 0 && count % 2 === 0, `${count} rectangles`);
+    // Half of the longest stroke with its margin, half its width and the lift, in radii of a shape whose longest side is
+    // 1, and the rounding of single precision.
+    assert.ok(farthest <= (0.0255 + 0.005 + 0.005) * Math.sqrt(3) / 2 + 1e-6, `${farthest}`);
+    await page.evaluate(`document.getElementById('layer-mesh').click()`);
+    assert.equal(await page.evaluate(`window.medialVk.viewer.strokes.visible`), false);
+    assertQuiet(page);
+  },
+
   async boundary_not_measured(context) {
     const {page} = await openPart(context, {mesh: box()});
     assert.ok(await page.evaluate(`document.getElementById('boundary').hidden`));
+    assert.ok(await page.evaluate(`document.getElementById('offer-strokes').hidden`));
     await page.click(400, 300);
     assert.equal(await vertexValues(page), null);
     assertQuiet(page);

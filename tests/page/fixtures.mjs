@@ -20,6 +20,26 @@ function prism(polygon, triangles, height, [dx, dy, dz]) {
 /** 1 x 0.6 x 0.8. */
 export const box = () => prism([[0, 0], [1, 0], [1, 0.6], [0, 0.6]], [[0, 1, 2], [0, 2, 3]], 0.8, [0, 0, 0]);
 
+/** Semiaxes 1, 0.7 and 0.4, by rings of vertices around z. */
+export function ellipsoid(rings = 12, around = 24) {
+  const lines = ['v 0 0 0.4'];
+  for (let i = 1; i < rings; ++i) {
+    for (let k = 0; k < around; ++k) {
+      const tilt = Math.PI * i / rings, turn = 2 * Math.PI * k / around;
+      lines.push(`v ${Math.sin(tilt) * Math.cos(turn)} ${0.7 * Math.sin(tilt) * Math.sin(turn)} ${0.4 * Math.cos(tilt)}`);
+    }
+  }
+  lines.push('v 0 0 -0.4');
+  const at = (i, k) => (i === 0 ? 1 : i === rings ? 2 + (rings - 1) * around : 2 + (i - 1) * around + k % around);
+  for (let i = 0; i < rings; ++i) {
+    for (let k = 0; k < around; ++k) {
+      if (i + 1 < rings) lines.push(`f ${at(i, k)} ${at(i + 1, k)} ${at(i + 1, k + 1)}`);
+      if (i > 0) lines.push(`f ${at(i, k)} ${at(i + 1, k + 1)} ${at(i, k + 1)}`);
+    }
+  }
+  return `${lines.join('\n')}\n`;
+}
+
 /** No two faces are parallel, so no spokes point in opposite directions. */
 export const tetrahedron = () => 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n';
 

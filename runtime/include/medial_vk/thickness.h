@@ -24,6 +24,9 @@ struct ThicknessOptions {
   /// longest side, which is a twentieth of a voxel at resolution 100.
   double delta = 0;
   /// Of an interval, relative to its lower end: the search at a point ends when its interval is no wider.
+  /// Centres of balls may be up to delta farther from p than the target, which is above the largest ball by this width:
+  /// where it is less than delta over the thickness, contacts on both sides of the wall are needed in each direction,
+  /// and a point takes ten times the distances and more (docs/theory.md, "Thickness").
   double width = 0.01;
   /// In mesh units: balls are not searched for beyond this diameter. 0: the longest side, which no ball inside exceeds.
   double limit = 0;
@@ -48,7 +51,8 @@ struct Thickness {
 /// is inside if its centre is (winding number of at least 1/2), and intervals are wide where that may differ between
 /// neighbouring centres. They are wide, too, where a wall is thinner than some two deltas, as balls beyond it
 /// come within delta of the point, and for a delta that is no more than the rounding of coordinates. Time: 20
-/// to 100 distances a point, fewer where points are dense. `progress` may be called on any thread, on one at a time.
+/// to 100 distances a point, fewer where points are dense, and hundreds where the thickness is less than delta over the
+/// width. `progress` may be called on any thread, on one at a time.
 /// Errors: kUsage (a coordinate that is not finite or beyond 1e18, 2^31 points or more, an option out of range),
 /// kOutOfMemory, kInterrupted.
 Result<std::vector<Thickness>> measure_thickness(const IndexedMesh& mesh, std::span<const Point> points,

@@ -91,6 +91,8 @@ class CurvatureRun {
         return encode_curvature_ply(table);
       case CurvatureFormat::kNpz:
         return encode_curvature_npz(table);
+      case CurvatureFormat::kGlb:
+        return encode_curvature_glb(table);
       case CurvatureFormat::kJson:
         return encode_curvature_json(table);
       case CurvatureFormat::kCsv:

@@ -93,8 +93,8 @@ Status MeshRun::load(Mesh mesh) {
   shared_.progress.clear();
   if (!prepared) return prepared.error();
   record_.mesh = prepared.value().report;
-  if ((options_.min_wall > 0 || options_.min_gap > 0) && !record_.mesh.closed) {
-    return Error{ErrorCode::kInvalidMesh, "the mesh has open edges: --min-wall and --min-gap need a closed one"};
+  if (options_.needs_walls() && !record_.mesh.closed) {
+    return Error{ErrorCode::kInvalidMesh, "the mesh has open edges: the least wall, or gap, is that of a closed one"};
   }
   return index(std::move(prepared).value());
 }
@@ -176,8 +176,7 @@ void MeshRun::describe() {
 }
 
 Status MeshRun::measure() {
-  const bool walls = options_.min_wall > 0 || options_.min_gap > 0;
-  if (!measures_of(options_).any() && !walls) return {};
+  if (!measures_of(options_).any() && !options_.needs_walls()) return {};
   const EndAtOnce guard;
   if (interrupted()) return stopped();
   Result<MeasuredBoundary> made = measure_boundary(*mesh_, analysis_.spheres, record_.grid.voxel_size, options_,

@@ -108,8 +108,9 @@ std::string describe_curvature(const CurvatureRecord& record) {
   const auto range = [](const std::optional<CurvatureRecord::Range>& of) {
     return of ? fmt::format("{:.3g} to {:.3g}", of->least, of->greatest) : std::string("unknown");
   };
-  return fmt::format("kappa 1 {}, kappa 2 {}; unknown at {:.3g} % of the area", range(record.kappa_1),
-                     range(record.kappa_2), 100 * record.unknown_share);
+  return fmt::format("kappa 1 {}, kappa 2 {}; one of both is known at {:.3g} %, none at {:.3g} % of the area",
+                     range(record.kappa_1), range(record.kappa_2), 100 * (record.unknown_share - record.none_share),
+                     100 * record.none_share);
 }
 
 /// Both sides of the comparison, which shows whether the topology was kept.

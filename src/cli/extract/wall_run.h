@@ -1,4 +1,4 @@
-// Whether walls, and gaps, are as thick as a run of the main command demands.
+// The least walls, and gaps, of a run of the main command, and whether they are as thick as it demands.
 #pragma once
 
 #include <string>
@@ -12,7 +12,8 @@
 
 namespace medial_vk::cli {
 
-/// For --min-wall and --min-gap. Appends the seconds to `times`. Errors: those of the library.
+/// For --least-wall, --least-gap, --min-wall and --min-gap. Appends the seconds to `times`. Errors: those of the
+/// library.
 Result<std::vector<WallRecord>> measure_walls(const IndexedMesh& mesh, const Options& options, Progress& progress,
                                               std::vector<StageTime>& times);
 

@@ -37,9 +37,9 @@ What is computed:
 
 Output:
   -o, --output FILE     .ply: a point for each place of contact; .csv: a line
-                        for each; .npz (NumPy) or .json: by ball; "-": CSV on
-                        standard output (default: BALLS's name with
-                        .curvature.ply, here)
+                        for each; .npz (NumPy) or .json: by ball; .glb (glTF):
+                        points with attributes; "-": CSV on standard output
+                        (default: BALLS's name with .curvature.ply, here)
       --report FILE     counts of states and ranges of curvatures as JSON; "-":
                         standard output
 

@@ -89,6 +89,10 @@ What is measured on the boundary, for summary, report, page and these files:
       --thickness-width W  the search for a point ends when its interval is no
                         wider than W times its lower end, 1e-6 to 1 (default
                         0.01)
+      --least-wall      the thinnest wall of a closed mesh, proved to a
+                        hundredth, and its place
+      --least-gap       the same for gaps outside, up to a quarter of the
+                        longest side
       --min-wall T      fail with exit code 8 and a list of places if a wall is
                         thinner than T by a hundredth or more, in the units of
                         the mesh, which must be closed; else that is proved

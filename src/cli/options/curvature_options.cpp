@@ -53,8 +53,8 @@ Status check_curvature_command(const CurvatureCommandOptions& options) {
   }
   const std::string extension = file_extension(options.output);
   if (options.output != "-" && extension != ".csv" && extension != ".ply" && extension != ".npz" &&
-      extension != ".json") {
-    return usage_error(fmt::format("--output: '{}' ends in none of .csv, .ply, .npz and .json", options.output));
+      extension != ".json" && extension != ".glb") {
+    return usage_error(fmt::format("--output: '{}' ends in none of .csv, .ply, .npz, .json and .glb", options.output));
   }
   if (!may_end_in(options.report, ".json")) {
     return usage_error(fmt::format("--report: '{}' does not end in .json", options.report));
@@ -68,6 +68,7 @@ CurvatureFormat CurvatureCommandOptions::format() const {
   const std::string extension = file_extension(output);
   if (extension == ".ply") return CurvatureFormat::kPly;
   if (extension == ".npz") return CurvatureFormat::kNpz;
+  if (extension == ".glb") return CurvatureFormat::kGlb;
   return extension == ".json" ? CurvatureFormat::kJson : CurvatureFormat::kCsv;
 }
 

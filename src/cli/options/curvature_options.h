@@ -12,7 +12,7 @@
 
 namespace medial_vk::cli {
 
-enum class CurvatureFormat { kCsv, kPly, kNpz, kJson };
+enum class CurvatureFormat { kCsv, kPly, kNpz, kJson, kGlb };
 
 struct CurvatureCommandOptions {
   bool help = false;

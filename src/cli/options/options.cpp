@@ -61,6 +61,8 @@ void declare(CLI::App& app, Options& options) {
   add.real("--thickness-delta", {0, 0.1, false}, " of the longest side", options.thickness_delta);
   add.real("--thickness-width", {1e-6, 1}, " of the lower end", options.thickness_width);
   add.flag("--curvature", options.curvature);
+  add.flag("--least-wall", options.least_wall);
+  add.flag("--least-gap", options.least_gap);
   add.real("--min-wall", {0, 1e18, false}, " in the units of the mesh", options.min_wall);
   add.real("--min-gap", {0, 1e18, false}, " in the units of the mesh", options.min_gap);
   add.real("--wall-angle", {std::numbers::pi / 4, std::numbers::pi / 2, false}, " radians", options.wall_angle);
@@ -161,8 +163,9 @@ Status check_boundary_options(const Options& options) {
         "--boundary-edge is about vertices of the boundary: use it with --boundary, --show boundary or --curvature");
   }
   const Options usual;
-  if (options.wall_angle != usual.wall_angle && options.min_wall == 0 && options.min_gap == 0) {
-    return usage_error("--wall-angle is about walls and gaps: use it with --min-wall or --min-gap");
+  if (options.wall_angle != usual.wall_angle && !options.needs_walls()) {
+    return usage_error(
+        "--wall-angle is about walls and gaps: use it with --least-wall, --least-gap, --min-wall or --min-gap");
   }
   const std::pair<const char*, bool> given[] = {
       {"--thickness-delta", options.thickness_delta != usual.thickness_delta},
@@ -250,6 +253,18 @@ struct OptionParser::Declared {
   Options options;
 };
 
+namespace {
+
+/// "; thickness is an option: medial-vk plate.obj --thickness" for an option where a command would be.
+std::string hint_at_option(const CLI::App& app, const std::vector<std::string>& arguments) {
+  if (arguments.size() < 2 || arguments[0].starts_with('-') || arguments[1].starts_with('-')) return {};
+  const CLI::Option* option = app.get_option_no_throw("--" + arguments[0]);
+  if (!option || option->get_expected_max() > 0) return {};
+  return fmt::format("; {0} is an option: medial-vk {1} --{0}", arguments[0], arguments[1]);
+}
+
+}  // namespace
+
 OptionParser::OptionParser() : declared_(std::make_unique<Declared>()) {
   declared_->app.set_help_flag();  // The text of --help is written by hand.
   declared_->app.allow_extras();   // Reported here, with a suggestion.
@@ -261,7 +276,9 @@ OptionParser::~OptionParser() = default;
 Result<Options> OptionParser::parse(const std::vector<std::string>& arguments) {
   declared_->app.forget();
   Options& options = declared_->options = Options();
-  if (Status status = parse_arguments(declared_->app, arguments, "one mesh at a time"); !status) return status.error();
+  if (Status status = parse_arguments(declared_->app, arguments, "one mesh at a time"); !status) {
+    return usage_error(status.error().message + hint_at_option(declared_->app, arguments));
+  }
   if (Status status = check_combinations(options); !status) return status.error();
   if (options.action != Action::kExtract) return options;
   if (Status status = complete_files(options); !status) return status.error();

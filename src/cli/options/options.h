@@ -57,6 +57,8 @@ struct Options {
   std::string boundary;             ///< As `report`.
   std::string thickness_histogram;  ///< As `report`.
 
+  bool least_wall = false;
+  bool least_gap = false;
   double min_wall = 0;              ///< In mesh units; 0: any.
   double min_gap = 0;               ///< As `min_wall`.
   double wall_angle = 1.2;          ///< Radians.
@@ -76,6 +78,8 @@ struct Options {
   bool quiet = false;
   bool verbose = false;
 
+  /// Whether a least wall or gap is to be proved, which needs a closed mesh.
+  bool needs_walls() const { return least_wall || least_gap || min_wall > 0 || min_gap > 0; }
   bool operator==(const Options&) const = default;
 };
 

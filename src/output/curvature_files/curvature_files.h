@@ -29,6 +29,8 @@ std::string encode_curvature_csv(const CurvatureTable& table);
 std::string encode_curvature_ply(const CurvatureTable& table);
 /// Error: kOutOfMemory.
 Result<std::string> encode_curvature_npz(const CurvatureTable& table);
+/// A point for each tip, with attributes; what is not known is 0. Error: kCannotWrite (too large for the format).
+Result<std::string> encode_curvature_glb(const CurvatureTable& table);
 /// An object for each ball; what is not known is null.
 std::string encode_curvature_json(const CurvatureTable& table);
 

@@ -271,13 +271,25 @@ Json curvature_json(const std::optional<CurvatureRecord>& record) {
   return {{"kappa_1", range(record->kappa_1)},
           {"kappa_2", range(record->kappa_2)},
           {"unknown_share", record->unknown_share},
+          {"none_share", record->none_share},
           {"median_error", record->median_error ? Json(*record->median_error) : Json(nullptr)}};
 }
 
+const char* name_of(WallRecord::Verdict verdict) {
+  switch (verdict) {
+    case WallRecord::Verdict::kThickEnough:
+      return "thick enough";
+    case WallRecord::Verdict::kTooThin:
+      return "too thin";
+    case WallRecord::Verdict::kMeasured:
+      return "measured";
+    case WallRecord::Verdict::kUndecided:
+      break;
+  }
+  return "undecided";
+}
+
 Json walls_json(const WallRecord& record) {
-  const char* verdict = record.verdict == WallRecord::Verdict::kThickEnough ? "thick enough"
-                        : record.verdict == WallRecord::Verdict::kTooThin   ? "too thin"
-                                                                            : "undecided";
   Json ball = nullptr;
   if (const std::optional<WallBall>& thinnest = record.found.thinnest) {
     ball = {{"centre", thinnest->ball.centre},
@@ -291,9 +303,9 @@ Json walls_json(const WallRecord& record) {
         {{"lower", place.least.lower}, {"upper", place.least.upper}, {"at", place.at}, {"area", place.area}});
   }
   return {{"side", record.side == ThicknessSide::kWalls ? "walls" : "gaps"},
-          {"demanded", record.demanded},
+          {"demanded", record.demanded > 0 ? Json(record.demanded) : Json(nullptr)},
           {"object_angle", record.object_angle},
-          {"verdict", verdict},
+          {"verdict", name_of(record.verdict)},
           {"proved", record.found.diameter.lower},
           {"thinnest", ball},
           {"places", places},

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <vector>
@@ -26,6 +28,13 @@ constexpr NamedColour kNamedColours[] = {{BoundaryColour::kThickness, "thickness
                                          {BoundaryColour::kKappa2, "kappa2", "Kappa 2"},
                                          {BoundaryColour::kShape, "shape", "Shape"}};
 
+/// As spokes are written: a component of 1 is this.
+constexpr double kUnit = 32767;
+
+bool is_direction(const BoundaryField& field) {
+  return field.name == field_names::kDirection1 || field.name == field_names::kDirection2;
+}
+
 std::string css_of(const Eigen::Vector3f& colour) {
   return fmt::format("rgb({} {} {})", picture::byte_of(colour.x()), picture::byte_of(colour.y()),
                      picture::byte_of(colour.z()));
@@ -43,16 +52,18 @@ BoundaryJson colour_json(const NamedColour& named, const BoundaryColours& colour
 
 BoundaryJson boundary_json(const BoundaryFields& fields, double longest_side) {
   if (fields.of_vertices.empty()) return nullptr;
-  BoundaryJson colours = BoundaryJson::array(), names = BoundaryJson::array(), states = BoundaryJson::array();
+  BoundaryJson colours = BoundaryJson::array(), names = BoundaryJson::array(), states = BoundaryJson::array(),
+               directions = BoundaryJson::array();
   for (const NamedColour& named : kNamedColours) {
     if (!can_colour(fields, named.colour)) continue;
     colours.push_back(colour_json(named, colour_boundary(fields, named.colour, longest_side)));
   }
   for (const BoundaryField& field : fields.of_vertices) {
     if (field.components == 1) names.push_back(field.name);
+    if (is_direction(field)) directions.push_back(field.name);
   }
   for (std::size_t i = 0; i < kCurvatureStates; ++i) states.push_back(state_name(static_cast<CurvatureState>(i)));
-  return {{"colours", colours}, {"fields", names}, {"states", states}};
+  return {{"colours", colours}, {"fields", names}, {"states", states}, {"directions", directions}};
 }
 
 void write_boundary(std::string& page, const BoundaryFields& fields, double longest_side) {
@@ -67,10 +78,16 @@ void write_boundary(std::string& page, const BoundaryFields& fields, double long
     block.write(page);
   }
   for (const BoundaryField& field : fields.of_vertices) {
-    if (field.components != 1) continue;
+    if (field.components != 1 && !is_direction(field)) continue;
     const std::string block_name = fmt::format("field-{}", field.name);
     Block block(block_name, 4 * field.values.size());
-    for (const double value : field.values) block.add(static_cast<float>(value));
+    for (const double value : field.values) {
+      if (!is_direction(field)) {
+        block.add(static_cast<float>(value));
+      } else {
+        block.add(static_cast<std::int16_t>(std::isnan(value) ? 0 : std::lround(kUnit * value)));
+      }
+    }
     block.write(page);
   }
 }

@@ -35,6 +35,7 @@ void require_in_range(const cli::Options& options) {
           "--size keeps its range");
   if (options.action != cli::Action::kExtract) return;
   require(!options.mesh.empty(), "there is a mesh");
+  require(options.needs_walls() || options.wall_angle == 1.2, "--wall-angle is about walls and gaps");
   require(!options.strokes || look.show == PictureShow::kBoundary, "strokes are on the boundary");
   const cli::MeasuresOfBoundary needed = cli::measures_of(options);
   require(options.boundary.empty() || needed.at_vertices(), "a boundary has something at its vertices");

@@ -99,10 +99,12 @@ TEST(CurvatureSummary, CountsAreaAndNotVertices) {
     curvature[i].kappa = {static_cast<double>(i), -1.0 - static_cast<double>(i)};
     curvature[i].error = static_cast<double>(i);
   }
+  curvature[3].kappa = {1, curvature[3].kappa[1]};  // a third of a quarter of the area; the other one is unknown
   BoundaryFields fields;
   add_curvature(fields, curvature, {});
   const CurvatureRecord record = summarise_curvature(mesh, fields);
   EXPECT_DOUBLE_EQ(record.unknown_share, 0.25);
+  EXPECT_DOUBLE_EQ(record.none_share, 0.25 * 2 / 3);
   EXPECT_EQ(record.kappa_1->greatest, 2);
   EXPECT_EQ(record.kappa_2->least, -3);
   EXPECT_EQ(record.median_error, 1);

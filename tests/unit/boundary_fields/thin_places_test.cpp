@@ -27,7 +27,7 @@ TEST(ThinPlaces, AreGroupsOfPointsThatAreCloseToEachOther) {
   at_points[2] = in_a_wall(0.5, 0.51, {3, 0, 5});
   at_points[3] = in_a_wall(0.6, 0.61, {3, 1, 5});
   at_points[4] = in_a_wall(2, 2.1, points[4]);    // thick enough
-  at_points[5] = in_a_wall(0.1, 0.2, points[5]);  // thinner than a wall can be
+  at_points[5] = in_a_wall(0.1, 0.5, points[5]);  // thinner than a wall can be
   at_points[6].object_angle = 0.9;                // at an edge
   const std::vector<ThinPlace> places = group_thin_places(points, at_points, 1, {0.3, 1}, 1.2);
   ASSERT_EQ(places.size(), 2u);

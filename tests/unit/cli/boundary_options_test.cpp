@@ -9,6 +9,7 @@ namespace medial_vk::cli {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 Options run_with(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "a.obj");
@@ -80,6 +81,14 @@ TEST(BoundaryOptions, WithoutTheirSubjectAreUsageErrors) {
               HasSubstr("--thickness-width is about thickness"));
   EXPECT_THAT(refusal_of({"--boundary-edge", "0.1"}), HasSubstr("--boundary-edge is about vertices"));
   EXPECT_THAT(refusal_of({"--thickness", "--boundary-edge", "0.1"}), HasSubstr("--boundary-edge is about vertices"));
+  const std::vector<std::string> no_command = {"thickness", "plate.obj"};
+  EXPECT_THAT(message_of(parse_options(no_command), no_command),
+              HasSubstr("; thickness is an option: medial-vk plate.obj --thickness"));
+  EXPECT_THAT(refusal_of({"b.obj"}), Not(HasSubstr("is an option")));
+  EXPECT_THAT(refusal_of({"--wall-angle", "1.3"}), HasSubstr("use it with --least-wall"));
+  for (const char* measure : {"--least-wall", "--least-gap"}) {
+    EXPECT_TRUE(run_with({measure, "--wall-angle", "1.3"}).needs_walls());
+  }
   EXPECT_THAT(refusal_of({"--strokes"}), HasSubstr("use it with --picture FILE.png"));
   EXPECT_THAT(refusal_of({"--picture", "p.png", "--strokes"}), HasSubstr("use it with --show boundary"));
   EXPECT_THAT(refusal_of({"--colour", "angle"}), HasSubstr("use them with --picture FILE.png"));

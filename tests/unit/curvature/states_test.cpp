@@ -23,6 +23,8 @@ TEST(CurvatureStates, ATubeHasOneCurvature) {
     balls.push_back({{kRing * std::cos(angle), kRing * std::sin(angle), 1}, kRadius});
   }
   const BoundaryCurvature result = measure_curvature(balls).value();
+  // By the eight neighbours on either side.
+  EXPECT_NEAR(result.spacing, 2 * kRing * std::sin(8 * std::numbers::pi / kCount) / 8, 1e-12);
   for (std::size_t i = 0; i < balls.size(); ++i) {
     const Point tangent = {-balls[i].centre[1] / kRing, balls[i].centre[0] / kRing, 0};
     for (const TipCurvature& tip : result.balls[i].tips) {

@@ -166,7 +166,106 @@ INSTANTIATE_TEST_SUITE_P(Solids, ThicknessOf, testing::ValuesIn(cases()), [](con
   return name;
 });
 
-// Triangulation and rotation change the surface a little, or nothing: intervals of one point have a common number.
+/// Each triangle as four.
+Mesh quartered(const Mesh& mesh) {
+  Mesh out;
+  const auto add = [&](const Point& p) {
+    out.vertices.push_back(p);
+    return static_cast<std::uint32_t>(out.vertices.size() - 1);
+  };
+  for (const auto& [i, j, k] : mesh.triangles) {
+    const Point &p = mesh.vertices[i], &q = mesh.vertices[j], &r = mesh.vertices[k];
+    const std::uint32_t a = add(p), b = add(q), c = add(r);
+    const std::uint32_t d = add(0.5 * (p + q)), e = add(0.5 * (q + r)), f = add(0.5 * (r + p));
+    for (const Triangle& part : {Triangle{a, d, f}, {d, b, e}, {f, e, c}, {d, e, f}}) out.triangles.push_back(part);
+  }
+  return out;
+}
+
+/// Triangles as three, around points that are often near an edge, again and again.
+Mesh split_at_random(Mesh mesh, std::size_t triangles, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<> uniform(0.02, 1);
+  while (mesh.triangles.size() < triangles) {
+    const std::size_t t = random() % mesh.triangles.size();
+    const auto [i, j, k] = mesh.triangles[t];
+    const double a = uniform(random), b = uniform(random), c = std::pow(uniform(random), 3);
+    const auto middle = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.push_back((1 / (a + b + c)) * (a * mesh.vertices[i] + b * mesh.vertices[j] + c * mesh.vertices[k]));
+    mesh.triangles[t] = {i, j, middle};
+    mesh.triangles.push_back({j, k, middle});
+    mesh.triangles.push_back({k, i, middle});
+  }
+  return mesh;
+}
+
+void expect_overlap(const Thickness& a, const Thickness& b) {
+  // Coordinates of one solid are rounded otherwise, which delta and radii hold many times.
+  EXPECT_LE(a.diameter.lower, b.diameter.upper * (1 + 1e-9));
+  EXPECT_LE(b.diameter.lower, a.diameter.upper * (1 + 1e-9));
+}
+
+// The faces of a box are the same in whatever triangles.
+TEST(Thickness, DoesNotDependOnTheTrianglesOfFlatFaces) {
+  const Mesh box = make_box({2, 1, 0.4}), fine = quartered(box);
+  std::mt19937_64 random(5);
+  std::vector<Point> points = points_of(fine, random);
+  points.resize(60);
+  const std::vector<Thickness> coarse = thickness_at(solid_of(box), points);
+  for (const Mesh& other : {fine, quartered(fine), split_at_random(box, 60, 1), split_at_random(box, 400, 2)}) {
+    const std::vector<Thickness> found = thickness_at(solid_of(other), points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      SCOPED_TRACE(testing::Message() << other.triangles.size() << " triangles, point " << i);
+      expect_overlap(coarse[i], found[i]);
+    }
+  }
+}
+
+/// How far the surface of an ellipsoid is from triangles with corners on it, at most. In the convex solid the distance
+/// d from the boundary is concave, and along a line its second derivative is at least -kappa / (1 - kappa d), where
+/// kappa bounds the curvatures. It is 0 at the corners v of a triangle, so at a point with the weights w it is at most
+/// half of kappa / (1 - kappa d) times the sum of w |x - v|^2, which for edges of at most e is at most e^2 / 3.
+double sagitta(const Mesh& mesh, double kappa) {
+  double e = 0;
+  for (const Triangle& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      e = std::max(e, length(mesh.vertices[t[k]] - mesh.vertices[t[(k + 1) % 3]]));
+    }
+  }
+  return (1 - std::sqrt(1 - 4 * kappa * kappa * e * e / 6)) / (2 * kappa);
+}
+
+// For meshes A and B within a convex solid that are nowhere deeper in it than h, d_A(m) <= d_B(m) + h. So a ball of A
+// that comes within delta of a point, made smaller by h, is one of B that comes within delta + h.
+TEST(Thickness, DependsOnTheFinenessOfACurvedMeshNoMoreThanItsSolidDoes) {
+  const auto ellipsoid = smooth_ellipsoid(1, 0.8, 0.7);
+  constexpr double kKappa = 1 / (0.7 * 0.7);
+  std::vector<Mesh> meshes = {ellipsoid->mesh(900), ellipsoid->mesh(3600), ellipsoid->mesh(14400),
+                              ellipsoid->mesh(3600)};
+  make_irregular(*ellipsoid, meshes[3], 7);
+  std::vector<Point> points = meshes[0].vertices;
+  points.resize(100);
+  std::vector<std::vector<Thickness>> near, nearer;
+  std::vector<double> depths;
+  for (const Mesh& mesh : meshes) {
+    depths.push_back(sagitta(mesh, kKappa));
+    ASSERT_LT(depths.back(), 0.03);
+    const IndexedMesh solid = solid_of(mesh);
+    ThicknessOptions wider = options_with();
+    wider.delta += depths.back();
+    nearer.push_back(thickness_at(solid, points));
+    near.push_back(thickness_at(solid, points, wider));
+  }
+  for (std::size_t a = 0; a < meshes.size(); ++a) {
+    for (std::size_t b = 0; b < meshes.size(); ++b) {
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        EXPECT_LE(nearer[a][i].diameter.lower, near[b][i].diameter.upper + 2 * depths[b]) << a << ' ' << b << ' ' << i;
+      }
+    }
+  }
+}
+
+// Rotation rounds the coordinates: intervals of one point have a common number.
 TEST(Thickness, IsThatOfATurnedMesh) {
   const Mesh mesh = make_turned_torus(40, 24);
   Mesh turned = mesh;
@@ -174,9 +273,8 @@ TEST(Thickness, IsThatOfATurnedMesh) {
   const std::vector<Thickness> a = thickness_at(solid_of(mesh), mesh.vertices),
                                b = thickness_at(solid_of(turned), turned.vertices);
   for (std::size_t i = 0; i < a.size(); ++i) {
-    // Coordinates of the turned mesh are rounded, which delta and radii hold many times.
-    EXPECT_LE(a[i].diameter.lower, b[i].diameter.upper * (1 + 1e-9)) << i;
-    EXPECT_LE(b[i].diameter.lower, a[i].diameter.upper * (1 + 1e-9)) << i;
+    SCOPED_TRACE(i);
+    expect_overlap(a[i], b[i]);
   }
 }
 
