@@ -27,7 +27,7 @@ struct ThicknessOptions {
   /// Centres of balls may be up to delta farther from p than the target, which is above the largest ball by this width:
   /// where it is less than delta over the thickness, contacts on both sides of the wall are needed in each direction,
   /// and a point takes ten times the distances and more (docs/theory.md, "Thickness").
-  double width = 0.01;
+  double width = 0.02;
   /// In mesh units: balls are not searched for beyond this diameter. 0: the longest side, which no ball inside exceeds.
   double limit = 0;
   std::uint32_t queries = 4000;  ///< Distances that may be computed for a point; then its interval is left wider.

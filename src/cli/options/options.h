@@ -66,7 +66,7 @@ struct Options {
   bool curvature = false;           ///< As `thickness`.
   double boundary_edge = 0;         ///< Fraction of the longest side that edges of the boundary may have; 0: any.
   double thickness_delta = 0.0005;  ///< Fraction of the longest side.
-  double thickness_width = 0.01;    ///< Of an interval, relative to its lower end.
+  double thickness_width = 0.02;    ///< Of an interval, relative to its lower end.
 
   std::optional<ColourBy> colour;  ///< As given; `look` and `boundary_colour` hold the resulting colours.
   std::optional<BoundaryColour> boundary_colour;  ///< None: thickness if it is measured, else the shape.
