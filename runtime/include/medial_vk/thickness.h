@@ -23,14 +23,15 @@ struct ThicknessOptions {
   /// delta, in mesh units: balls count at a point if they come within this distance of it. 0: a two-thousandth of the
   /// longest side, which is a twentieth of a voxel at resolution 100.
   double delta = 0;
-  /// Of an interval, relative to its lower end: the search at a point ends when its interval is no wider.
+  /// Of an interval, relative to its lower end: the search at a point ends when its interval is no wider, or no wider
+  /// than a quarter of delta.
   /// Centres of balls may be up to delta farther from p than the target, which is above the largest ball by this width:
   /// where it is less than delta over the thickness, contacts on both sides of the wall are needed in each direction,
   /// and a point takes ten times the distances and more (docs/theory.md, "Thickness").
   double width = 0.02;
   /// In mesh units: balls are not searched for beyond this diameter. 0: the longest side, which no ball inside exceeds.
   double limit = 0;
-  std::uint32_t queries = 4000;  ///< Distances that may be computed for a point; then its interval is left wider.
+  std::uint32_t queries = 1000;  ///< Distances that may be computed for a point; then its interval is left wider.
   unsigned threads = 0;          ///< Of the host, 0: one per core. The result does not depend on it.
 };
 

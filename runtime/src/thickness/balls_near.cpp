@@ -13,6 +13,10 @@ constexpr double kInset = 0x1p-20;
 // Smaller balls than this share of delta are not searched for.
 constexpr double kLeastShare = 0x1p-4;
 
+// Radii are not told apart further than by this share of delta: where they are a few deltas, at sharp edges, they are
+// in proportion to it.
+constexpr double kGapShare = 0.125;
+
 constexpr std::size_t kMostOthers = 8, kMostKept = 24;
 
 }  // namespace
@@ -126,8 +130,8 @@ void BallsNear::record(const Point& offset, double radius) {
     others_.push_back({offset, radius});
     return;
   }
-  if (counted * (1 + 0.5 * field_.options.width) > target_)
-    target_ = counted * (1 + field_.options.width) * kBoundRounding;
+  const double gap = std::max(field_.options.width * counted, kGapShare * delta_);
+  if (counted + 0.5 * gap > target_) target_ = (counted + gap) * kBoundRounding;
 }
 
 /// The side of all centres in a ball. In a closed mesh, balls that overlap are on one side, as the boundary meets
