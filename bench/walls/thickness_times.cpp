@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstddef>
+#include <cstdio>
 #include <ctime>
 #include <string>
 #include <vector>
@@ -77,7 +78,6 @@ void print_row(const std::string& file, const ThicknessOptions& options, int rep
 int main(int argc, char** argv) {
   CLI::App app("Thickness at all vertices of meshes: widths and times, beside shrinking balls and shape diameters.");
   ThicknessOptions options;
-  options.width = 0.02;
   std::vector<std::string> files;
   int repeats = 3;
   bool gaps = false;

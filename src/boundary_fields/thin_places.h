@@ -13,7 +13,7 @@ namespace medial_vk {
 
 /// Points of the boundary on both sides of a wall.
 struct ThinPlace {
-  Bounds least;          ///< The interval of the least lower end.
+  Bounds least;          ///< Of the point whose interval had the least lower end before it was narrowed.
   Point at = {0, 0, 0};  ///< Its point.
   double area = 0;       ///< Of the boundary; 0: of less than a point's share.
 };

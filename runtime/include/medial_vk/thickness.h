@@ -25,9 +25,8 @@ struct ThicknessOptions {
   double delta = 0;
   /// Of an interval, relative to its lower end: the search at a point ends when its interval is no wider, or no wider
   /// than a quarter of delta.
-  /// Centres of balls may be up to delta farther from p than the target, which is above the largest ball by this width:
-  /// where it is less than delta over the thickness, contacts on both sides of the wall are needed in each direction,
-  /// and a point takes ten times the distances and more (docs/theory.md, "Thickness").
+  /// Where the width is less than delta over the thickness, a point takes ten times the distances and more: contacts on
+  /// both sides of the wall are then needed in each direction (docs/theory.md, "Thickness").
   double width = 0.02;
   /// In mesh units: balls are not searched for beyond this diameter. 0: the longest side, which no ball inside exceeds.
   double limit = 0;
@@ -51,7 +50,7 @@ struct Thickness {
 /// the boundary, in double precision rounded down, and an upper bound is proved for all centres. On an open mesh a ball
 /// is inside if its centre is (winding number of at least 1/2), and intervals are wide where that may differ between
 /// neighbouring centres. They are wide, too, where a wall is thinner than some two deltas, as balls beyond it
-/// come within delta of the point, and for a delta that is no more than the rounding of coordinates. Time: 20
+/// come within delta of the point, at edges and corners where the thickness is below two deltas, and for a delta that is no more than the rounding of coordinates. Time: 20
 /// to 100 distances a point, fewer where points are dense, and hundreds where the thickness is less than delta over the
 /// width. `progress` may be called on any thread, on one at a time.
 /// Errors: kUsage (a coordinate that is not finite or beyond 1e18, 2^31 points or more, an option out of range),

@@ -7,10 +7,12 @@ namespace {
 
 constexpr std::size_t kSteps = kWindows.size();
 constexpr double kBiasShare = 0.25;  // of the fourth power of widths whose squares are as 1 to 2
-// Of the difference of a width from the next narrower one: at most so much is its own noise, which falls with the third
-// power of the width, or, if it is the widest, its own bias, of which the difference is three quarters.
-constexpr double kNoiseShare = 0.354, kWidestShare = 1 / (1 - kBiasShare);
-// Of the difference of the next wider one from it, a third would be its bias; more, as not all is of the fourth power.
+// Of the difference of a width from the next narrower one, about so much is its own noise, which falls with the third
+// power of the width. If the difference is bias, so many times it is the bias of the width itself, which has no wider
+// one.
+constexpr double kNoiseShare = 0.354, kWidestFactor = 1 / (1 - kBiasShare);
+// Of the difference of the next wider one from it. A third would be its bias; a half, since part of the bias is of
+// lower powers.
 constexpr double kBiasOfNext = 0.5;
 constexpr double kSameSide = 0.7;     // of spokes of tips that are compared
 constexpr double kLeastReach = 10.0;  // spacings from a tip to others whose windows tell what is usual
@@ -38,14 +40,14 @@ double upper_quartile(std::vector<double>& values) {
   return *quartile;
 }
 
-/// Two estimates of the error of a width, by its difference from the next narrower one and those of wider ones, each
-/// from the next narrower one. The second is larger: nothing in it is divided by what noise or bias would change.
+/// Estimates of the error of a width, by its difference from the next narrower one and the differences of wider ones.
 struct WidthErrors {
-  double likely, most;
+  double likely;    // by which widths are compared
+  double reported;  // both differences in full
 
   WidthErrors(double own, double of_wider, bool is_widest)
-      : likely(std::max((is_widest ? kWidestShare : kNoiseShare) * own, kBiasOfNext * of_wider)),
-        most(std::max(own, of_wider)) {}
+      : likely(std::max((is_widest ? kWidestFactor : kNoiseShare) * own, kBiasOfNext * of_wider)),
+        reported(std::max(own, of_wider)) {}
 };
 
 /// The width with the least likely error. Where windows lie within single facets, narrow ones differ little from each
@@ -65,7 +67,7 @@ FitLadder::Choice choice_of(const std::array<Difference, kSteps>& differences) {
     }
     const WidthErrors form(at.form, wider.form, is_widest), angle(at.angle, wider.angle, is_widest);
     if (best.step == 0 || form.likely < least) {
-      best = {i, form.most, angle.most};
+      best = {i, form.reported, angle.reported};
       least = form.likely;
     }
     wider = {std::max(bias.form, at.form), std::max(bias.angle, at.angle)};

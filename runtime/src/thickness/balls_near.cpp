@@ -13,8 +13,7 @@ constexpr double kInset = 0x1p-20;
 // Smaller balls than this share of delta are not searched for.
 constexpr double kLeastShare = 0x1p-4;
 
-// Radii are not told apart further than by this share of delta: where they are a few deltas, at sharp edges, they are
-// in proportion to it.
+// A search also ends when the radius is known to this share of delta (docs/decisions.md).
 constexpr double kGapShare = 0.125;
 
 constexpr std::size_t kMostOthers = 8, kMostKept = 24;

@@ -107,7 +107,11 @@ class PlaceSearch {
     }
     Result<std::vector<Thickness>> found = measure_thickness(mesh_, at, how_, on_progress_);
     if (!found) return found.error();
-    for (std::size_t i = 0; i < numbers.size(); ++i) places[numbers[i]].least = found.value()[i].diameter;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      Bounds& least = places[numbers[i]].least;  // both intervals hold the thickness
+      least = {std::max(least.lower, found.value()[i].diameter.lower),
+               std::min(least.upper, found.value()[i].diameter.upper)};
+    }
     return {};
   }
 

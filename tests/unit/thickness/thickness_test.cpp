@@ -322,7 +322,8 @@ TEST(Thickness, WithinABudget) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     EXPECT_LE(wide[i].diameter.lower, all[i].diameter.upper);
     EXPECT_GE(wide[i].diameter.upper, all[i].diameter.lower);
-    wider += wide[i].diameter.upper > 1.02 * wide[i].diameter.lower ? 1 : 0;
+    wider += wide[i].diameter.upper > 1.03 * wide[i].diameter.lower ? 1 : 0;
+    EXPECT_LE(all[i].diameter.upper, 1.03 * all[i].diameter.lower);
   }
   EXPECT_GT(wider, 0u);
 }
