@@ -223,7 +223,7 @@ TEST_F(DistanceCommand, ALimitOfZeroDecidesCollisionsAlone) {
   const std::vector<DistanceLine> lines = lines_of(read_file(path("d.csv")));
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_THAT(states_of(read_file(path("d.csv"))), ElementsAre("free", "hit", "undecided"));
-  EXPECT_LE(lines[0].lower, 2);
+  EXPECT_LT(lines[0].lower, 1e-9);  // the exact distance, 2, is not computed
   EXPECT_GE(lines[0].upper, 2 - 1e-12);
 }
 

@@ -66,7 +66,8 @@ Result<PairPicture> picture_of(const ClearanceOptions& options, const ClearanceV
   picture.title = title_of(interval);
   if (view.clearances.size() > 1) picture.title = fmt::format("configuration {}: {}", shown + 1, picture.title);
   picture.is_hit = interval.collision == Collision::kHit;
-  if (pair.a == PartPair::kNone) {  // nothing is compared, or all is beyond the limit
+  // Nothing is compared, or all is beyond the limit: then the pair need not be the closest one.
+  if (pair.a == PartPair::kNone || !(interval.upper <= options.limit)) {
     append_solids(view.all, poses, ~std::uint32_t{0}, ~std::uint32_t{0}, picture);
     picture.name_a = picture.name_b = "";
     return picture;
@@ -101,7 +102,8 @@ Status append_clearance_views(const ClearanceOptions& options, const ClearanceVi
   page.is_chosen = options.row > 0;
   page.pose = "configuration";
   page.unit = "metres";
-  page.picture = "The robot and the scene as glass, with the two closest links in colours";
+  page.picture = "The robot and the scene as glass";
+  if (!picture.value().name_a.empty()) page.picture += ", with the two closest links in colours";
   page.by_balls = options.balls > 0 && !options.decide;
   return append_views(picture.value(), options.view, options.picture, options.html, std::move(page), files);
 }

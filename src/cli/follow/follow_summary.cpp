@@ -131,7 +131,8 @@ std::string outside_text(const MotionRecord& record) {
     error = percent * frame.outside->standard_error;
   }
   std::string text = fmt::format("at most {:.2f} % of the solid, in any frame", worst);
-  if (most >= 0) text += fmt::format("; in the worst one {:.2g} % by samples (standard error {:.1g} %)", most, error);
+  if (most == 0) text += fmt::format("; none of the samples: below {:.1g} % (95 %)", error);
+  if (most > 0) text += fmt::format("; in the worst one {:.2g} % by samples (standard error {:.1g} %)", most, error);
   return text;
 }
 

@@ -46,7 +46,7 @@ struct FollowedFrame {
   std::vector<FollowState> states;
   std::vector<FollowOrigin> origins;  ///< Empty unless balls may be chosen anew (MotionRecord::renews).
   FollowMeasures measures;
-  /// Of the balls' volume outside the solid, below FollowMeasures::outside_bound; empty: not estimated.
+  /// Of the balls' volume outside the solid, which FollowMeasures::outside_bound limits; empty: not estimated.
   std::optional<OutsideEstimate> outside;
   std::optional<Bounds> gap;  ///< The greatest distance from points of the boundary to the balls.
   bool is_mirrored = false;   ///< The mesh is closed, and its signed volume is negative.

@@ -107,7 +107,7 @@ TEST(CoverOfAnyFrame, TighteningInFaultyFramesMakesNoLaterCoverLarger) {
   }
 }
 
-// The same frame gives the same cover, whatever made the division of the surface that it begins with.
+// The same frame gives the same cover, as tighten() then begins from the division at rest.
 TEST(CoverOfAnyFrame, TighteningRecoversFromAFaultyFrame) {
   const CoverExample example = covered_torus();
   const auto frames = frames_with_faulty_ones(example.rest());
