@@ -50,10 +50,10 @@ struct Thickness {
 /// the boundary, in double precision rounded down, and an upper bound is proved for all centres. On an open mesh a ball
 /// is inside if its centre is (winding number of at least 1/2), and intervals are wide where that may differ between
 /// neighbouring centres. They are wide, too, where a wall is thinner than some two deltas, as balls beyond it
-/// come within delta of the point, at edges and corners where the thickness is below two deltas, and for a delta that is no more than the rounding of coordinates. Time: 20
-/// to 100 distances a point, fewer where points are dense, and hundreds where the thickness is less than delta over the
-/// width. `progress` may be called on any thread, on one at a time.
-/// Errors: kUsage (a coordinate that is not finite or beyond 1e18, 2^31 points or more, an option out of range),
+/// come within delta of the point, at edges and corners where the thickness is below two deltas, and for a delta that
+/// is no more than the rounding of coordinates. Time: 20 to 100 distances a point, fewer where points are dense, and
+/// hundreds where the thickness is less than delta over the width. `progress` may be called on any thread, on one at a
+/// time. Errors: kUsage (a coordinate that is not finite or beyond 1e18, 2^31 points or more, an option out of range),
 /// kOutOfMemory, kInterrupted.
 Result<std::vector<Thickness>> measure_thickness(const IndexedMesh& mesh, std::span<const Point> points,
                                                  const ThicknessOptions& options = {},
