@@ -6,26 +6,14 @@ namespace medial_vk {
 namespace {
 
 constexpr std::size_t kSteps = kWindows.size();
-constexpr double kBiasShare = 0.25;  // of the fourth power of widths whose squares are as 1 to 2
-// Of the difference of a width from the next narrower one, about so much is its own noise, which falls with the third
-// power of the width. If the difference is bias, so many times it is the bias of the width itself, which has no wider
-// one.
-constexpr double kNoiseShare = 0.354, kWidestFactor = 1 / (1 - kBiasShare);
-// Of the difference of the next wider one from it. A third would be its bias; a half, since part of the bias is of
-// lower powers.
-constexpr double kBiasOfNext = 0.5;
 constexpr double kSameSide = 0.7;     // of spokes of tips that are compared
 constexpr double kLeastReach = 10.0;  // spacings from a tip to others whose windows tell what is usual
 
 double angle_of(const Point& a, const Point& b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
 
-/// How much a width differs from the next narrower one at a tip: squares, NaN where one of them gives no result.
-struct Difference {
-  double form, angle;
-};
-
-std::vector<Difference> differences_of(const LadderStep& wide, const LadderStep& narrow) {
-  std::vector<Difference> out(wide.fits.size(), Difference{std::nan(""), std::nan("")});
+/// Squares.
+std::vector<WidthDifference> differences_of(const LadderStep& wide, const LadderStep& narrow) {
+  std::vector<WidthDifference> out(wide.fits.size(), WidthDifference{std::nan(""), std::nan("")});
   for (std::size_t i = 0; i < out.size(); ++i) {
     if (!wide.fits[i].is_known || !narrow.fits[i].is_known) continue;
     const double angle = angle_of(wide.fits[i].normal, narrow.fits[i].normal);
@@ -38,42 +26,6 @@ double upper_quartile(std::vector<double>& values) {
   const auto quartile = values.begin() + static_cast<std::ptrdiff_t>(3 * values.size() / 4);
   std::nth_element(values.begin(), quartile, values.end());
   return *quartile;
-}
-
-/// Estimates of the error of a width, by its difference from the next narrower one and the differences of wider ones.
-struct WidthErrors {
-  double likely;    // by which widths are compared
-  double reported;  // both differences in full
-
-  WidthErrors(double own, double of_wider, bool is_widest)
-      : likely(std::max((is_widest ? kWidestFactor : kNoiseShare) * own, kBiasOfNext * of_wider)),
-        reported(std::max(own, of_wider)) {}
-};
-
-/// The width with the least likely error. Where windows lie within single facets, narrow ones differ little from each
-/// other, and are wrong. So a width is no better than the wider ones would let it be if their differences were bias, of
-/// which the next narrower one has a quarter.
-FitLadder::Choice choice_of(const std::array<Difference, kSteps>& differences) {
-  FitLadder::Choice best;
-  Difference wider = {0, 0};
-  double least = 0;
-  bool is_widest = true;
-  for (std::size_t i = kSteps - 1; i > 0; --i) {
-    const Difference& at = differences[i];
-    const Difference bias = {kBiasShare * wider.form, kBiasShare * wider.angle};  // if it is that of the next wider one
-    if (std::isnan(at.form)) {
-      wider = bias;
-      continue;
-    }
-    const WidthErrors form(at.form, wider.form, is_widest), angle(at.angle, wider.angle, is_widest);
-    if (best.step == 0 || form.likely < least) {
-      best = {i, form.reported, angle.reported};
-      least = form.likely;
-    }
-    wider = {std::max(bias.form, at.form), std::max(bias.angle, at.angle)};
-    is_widest = false;
-  }
-  return best;
 }
 
 /// Leaves the tips that are known, without gaps: all others lie in one place.
@@ -196,13 +148,13 @@ void FitLadder::fit_tips(std::size_t step, double radius, unsigned threads) {
 
 void FitLadder::choose(double spacing, unsigned threads) {
   const std::size_t count = steps_[0].fits.size();
-  std::array<std::vector<Difference>, kSteps> differences;
+  std::array<std::vector<WidthDifference>, kSteps> differences;
   for (std::size_t k = 1; k < kSteps; ++k) differences[k] = differences_of(steps_[k], steps_[k - 1]);
   choices_.resize(count);
   for (std::size_t k = 1; k < kSteps; ++k) {
     // The upper quartile over the tips around, in the place of the value of one: within a facet, narrow windows agree,
     // and those across its edges do not.
-    std::vector<Difference> usual(count, Difference{std::nan(""), std::nan("")});
+    std::vector<WidthDifference> usual(count, WidthDifference{std::nan(""), std::nan("")});
     const TipCloud& cloud = steps_[k].cloud;
     const std::vector<std::uint32_t>& numbers = steps_[k].numbers;
     const double reach = std::max(kWindows[k] / 2, kLeastReach) * spacing;
@@ -212,7 +164,7 @@ void FitLadder::choose(double spacing, unsigned threads) {
       if (stop_.stop_requested() || std::isnan(differences[k][i].form)) return;
       std::vector<double> forms, angles;
       grid.visit_within(cloud.tips[place], reach, [&](std::uint32_t other, double) {
-        const Difference& there = differences[k][numbers[other]];
+        const WidthDifference& there = differences[k][numbers[other]];
         if (steps_[k].is_kept[other] == 0 || std::isnan(there.form)) return;
         if (dot(cloud.normals[other], cloud.normals[place]) < kSameSide) return;
         forms.push_back(there.form);
@@ -220,16 +172,16 @@ void FitLadder::choose(double spacing, unsigned threads) {
       });
       if (forms.empty()) return;
       // A tip that differs by more than twice what is usual around it is a stray.
-      const Difference& own = differences[k][i];
+      const WidthDifference& own = differences[k][i];
       usual[i] = {std::sqrt(std::max(upper_quartile(forms), own.form / 4)),
                   std::sqrt(std::max(upper_quartile(angles), own.angle / 4))};
     });
     differences[k] = std::move(usual);
   }
   parallel_for(count, 1024, threads, [&](std::size_t i) {
-    std::array<Difference, kSteps> of_tip = {};
+    std::array<WidthDifference, kSteps> of_tip = {};
     for (std::size_t k = 1; k < kSteps; ++k) of_tip[k] = differences[k][i];
-    choices_[i] = choice_of(of_tip);
+    choices_[i] = choose_width(of_tip);
   });
 }
 

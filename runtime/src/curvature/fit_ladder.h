@@ -9,6 +9,7 @@
 #include "curvature/exposed_spokes.h"
 #include "curvature/sheet_fit.h"
 #include "curvature/tip_fit.h"
+#include "curvature/width_choice.h"
 #include "medial_vk/progress.h"
 
 namespace medial_vk {
@@ -37,14 +38,9 @@ class FitLadder {
 
   const LadderStep& step(std::size_t i) const { return steps_[i]; }
 
-  /// The width chosen for a tip, and how much its results differ from those of the next narrower and wider ones: upper
-  /// quartiles over the tips around.
-  struct Choice {
-    std::size_t step = 0;         ///< 0: no width gives a result.
-    double form_difference = 0;   ///< 1 / length
-    double angle_difference = 0;  ///< Of the normals, radians.
-  };
-  const Choice& choice(std::size_t tip) const { return choices_[tip]; }
+  /// The width chosen for a tip, and how much its results differ from those of the next ones: upper quartiles over the
+  /// tips around.
+  const WidthChoice& choice(std::size_t tip) const { return choices_[tip]; }
 
   /// Of a ball that no width gives spokes along its sheet, and that exposed regions give one or two spokes; otherwise
   /// null.
@@ -63,7 +59,7 @@ class FitLadder {
   void choose(double spacing, unsigned threads);
 
   std::array<LadderStep, kWindows.size()> steps_;
-  std::vector<Choice> choices_;
+  std::vector<WidthChoice> choices_;
   std::vector<std::uint32_t> exposed_of_;  // by ball: its place, or kNone
   std::vector<ExposedSpokes> exposed_;
   std::stop_token stop_;

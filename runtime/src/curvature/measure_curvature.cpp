@@ -75,7 +75,7 @@ void set_axes(const TipFit& fit, TipCurvature& tip) {
 }
 
 /// The tip with the normal of a fit.
-TipCurvature with_normal(TipCurvature tip, const TipFit& fit, const FitLadder::Choice& choice, double spacing) {
+TipCurvature with_normal(TipCurvature tip, const TipFit& fit, const WidthChoice& choice, double spacing) {
   tip.normal = fit.normal;
   tip.normal_error = kErrorFactor * choice.angle_difference;
   tip.window = kWindows[choice.step] * spacing;
@@ -83,7 +83,7 @@ TipCurvature with_normal(TipCurvature tip, const TipFit& fit, const FitLadder::C
 }
 
 /// And with its curvatures.
-TipCurvature with_curvatures(TipCurvature tip, const TipFit& fit, const FitLadder::Choice& choice) {
+TipCurvature with_curvatures(TipCurvature tip, const TipFit& fit, const WidthChoice& choice) {
   set_axes(fit, tip);
   tip.error = kErrorFactor * choice.form_difference;
   tip.spread = fit.spread;
@@ -98,7 +98,7 @@ TipCurvature exposed_tip(const SheetLinks& links, const FitLadder& ladder, std::
   tip.state = CurvatureState::kExposed;
   tip.normal = spoke;
   tip.normal_error = reach;
-  const FitLadder::Choice& choice = ladder.choice(at);
+  const WidthChoice& choice = ladder.choice(at);
   if (choice.step == 0) return tip;
   const TipFit& fit = ladder.step(choice.step).fits[at];
   const double radius = links.balls()[at / 2].radius;
@@ -127,7 +127,7 @@ TipCurvature tip_of(const SheetLinks& links, const FitLadder& ladder, std::uint3
     return exposed_tip(links, ladder, at, exposed->spokes[side], exposed->reaches[side]);
   }
   if (shape.state != CurvatureState::kKnown) return tip;
-  const FitLadder::Choice& choice = ladder.choice(at);
+  const WidthChoice& choice = ladder.choice(at);
   tip.state = CurvatureState::kFew;
   if (choice.step == 0) return tip;
   const LadderStep& step = ladder.step(choice.step);

@@ -13,7 +13,7 @@ constexpr std::size_t kRank = 16;
 
 // Of squared distances, that of this neighbour over that of a quarter of its rank. On a surface it is about 4, on a
 // curve 16; this is the geometric mean.
-constexpr double kLineShare = 8;
+constexpr double kLineRatio = 8;
 
 /// The longest side of the box of the points.
 double extent_of(std::span<const Point> points) {
@@ -77,7 +77,7 @@ double estimated_spacing(std::span<const Point> points, unsigned threads) {
       std::nth_element(squared.begin(), low, nth);
       spacings[i] = std::sqrt(far * std::numbers::pi / neighbours);
       along[i] = 2 * std::sqrt(far) / neighbours;
-      is_line[i] = *low > 0 && far > kLineShare * *low ? 1 : 0;
+      is_line[i] = *low > 0 && far > kLineRatio * *low ? 1 : 0;
     }
   });
   const auto lines = static_cast<std::size_t>(std::ranges::count(is_line, std::uint8_t{1}));
