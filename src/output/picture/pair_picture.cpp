@@ -157,14 +157,15 @@ std::vector<MedialSphere> marks_of(const PairPicture& pair, const PictureView& v
 std::string note_of(const PairPicture& pair) {
   const bool has_inside = !pair.inside_a.empty() || !pair.inside_b.empty();
   const bool has_cover = !pair.cover_a.empty() || !pair.cover_b.empty();
-  std::string note = !pair.balls_decide && (has_inside || has_cover) ? "balls that bound the distance: " : "";
+  if (!has_inside && !has_cover) return {};
+  std::string note = pair.balls_decide ? "balls " : "balls that bound the distance, ";
   if (has_inside) {
     const bool is_nested = std::ranges::any_of(pair.inside_a, [&](const Ball& b) { return holds(b, pair.inside_b); }) ||
                            std::ranges::any_of(pair.inside_b, [&](const Ball& b) { return holds(b, pair.inside_a); });
-    note += is_nested ? "inside solid, or wires around it" : "inside solid";
+    note += is_nested ? "inside: solid, or wires around it" : "inside: solid";
   }
-  if (has_inside && has_cover) note += ", ";
-  return has_cover ? note + "covers as rings" : note;
+  if (has_inside && has_cover) note += "; ";
+  return has_cover ? note + "of covers: rings" : note;
 }
 
 }  // namespace
