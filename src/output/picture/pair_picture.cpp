@@ -162,9 +162,9 @@ std::string note_of(const PairPicture& pair) {
   if (has_inside) {
     const bool is_nested = std::ranges::any_of(pair.inside_a, [&](const Ball& b) { return holds(b, pair.inside_b); }) ||
                            std::ranges::any_of(pair.inside_b, [&](const Ball& b) { return holds(b, pair.inside_a); });
-    note += is_nested ? "inside: solid, or wires around it" : "inside: solid";
+    note += is_nested ? "inside: solid or wires around it" : "inside: solid";
   }
-  if (has_inside && has_cover) note += "; ";
+  if (has_inside && has_cover) note += ", ";
   return has_cover ? note + "of covers: rings" : note;
 }
 
