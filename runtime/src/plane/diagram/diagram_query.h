@@ -33,7 +33,7 @@ struct DiagramQuery {
 };
 
 /// Angles below are rounding.
-inline constexpr double kLeastAngle = 1e-7;
+inline constexpr double kLeastAngle = 0x1p-13;
 
 /// Of a distance r that was computed from coordinates within [-1/2, 1/2]: roundings of the coordinates of a centre, and
 /// of the few operations from there. Sites whose distances differ by less are taken to be equally far.
