@@ -38,7 +38,6 @@ class Meetings {
     query.object_angle = 2;  // above every angle: cells without boundary are dismissed
     query.slack = 2 * kSnap;
     query.threads = threads;
-    query.most_cells = 32 * std::size_t{sites.size()} + (std::size_t{1} << 20);
     const CellTree tree = CellTree::build(sites, query, watch);
     for (std::uint32_t node = 0; node < tree.size(); ++node) {
       if (tree.state(node) == CellState::kLeaf || tree.state(node) == CellState::kClustered) add(tree.cell(node).sites);
