@@ -1,0 +1,72 @@
+#include "shape_files/areas/shape_area.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "base/host_memory.h"
+
+namespace medial_vk {
+namespace {
+
+/// Rings of the segments of a shape. As many segments end in a point as begin there, so every way on ends where it
+/// began.
+void add_rings(const PreparedShape& shape, std::vector<PlaneRing>& rings) {
+  const std::size_t points = shape.points.size();
+  std::vector<std::uint32_t> first(points + 1, 0);
+  for (const auto& segment : shape.segments) ++first[segment[0] + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<std::uint32_t> next = first, ends(shape.segments.size());
+  for (const auto& [begin, end] : shape.segments) ends[next[begin]++] = end;
+  std::copy(first.begin(), first.end() - 1, next.begin());
+  for (std::uint32_t start = 0; start < points; ++start) {
+    while (next[start] < first[start + 1]) {
+      PlaneRing ring;
+      for (std::uint32_t at = start; next[at] < first[at + 1]; at = ends[next[at]++]) ring.push_back(shape.points[at]);
+      rings.push_back(std::move(ring));
+    }
+  }
+}
+
+Result<UnitedAreas> unite(std::vector<ShapeArea> areas, unsigned threads, const std::stop_token& stop) {
+  UnitedAreas united;
+  if (areas.size() == 1) {
+    united.rings = std::move(areas.front().rings);
+    united.rule = areas.front().rule;
+    united.areas = 1;
+    return united;
+  }
+  united.rule = FillRule::kNonZero;
+  constexpr std::size_t kPointsForThreads = 10'000;  // fewer points take less time than threads to start
+  for (ShapeArea& area : areas) {
+    const std::size_t points = std::accumulate(area.rings.begin(), area.rings.end(), std::size_t{0},
+                                               [](std::size_t n, const PlaneRing& ring) { return n + ring.size(); });
+    const Result<PreparedShape> shape =
+        prepare_shape(area.rings, area.rule, points < kPointsForThreads ? 1 : threads, stop);
+    area.rings = {};
+    if (!shape) {
+      if (shape.error().code != ErrorCode::kInvalidMesh) return shape.error();
+      ++united.empty;
+      continue;
+    }
+    ++united.areas;
+    united.crossings += shape.value().report.crossings;
+    add_rings(shape.value(), united.rings);
+  }
+  if (united.areas == 0) return Error{ErrorCode::kInvalidMesh, "no area of it encloses anything"};
+  return united;
+}
+
+}  // namespace
+
+Result<UnitedAreas> unite_areas(std::vector<ShapeArea> areas, unsigned threads, const std::stop_token& stop) {
+  return catch_out_of_memory("uniting the areas of a shape", [&] { return unite(std::move(areas), threads, stop); });
+}
+
+void add_sentence(std::vector<std::string>& sentences, std::uint64_t count, const char* one, const char* many) {
+  if (count > 0) sentences.push_back(fmt::format("{} {}", count, count == 1 ? one : many));
+}
+
+}  // namespace medial_vk
