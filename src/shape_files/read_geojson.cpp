@@ -36,7 +36,13 @@ class GeoJsonReader {
   }
 
   GeometrySet& set() { return set_; }
-  std::string where(const std::string& what) const { return path_.empty() ? what : path_ + ": " + what; }
+  /// A fault with the path of the member, or the end of a long one.
+  std::string where(const std::string& what) const {
+    if (path_.empty()) return what;
+    constexpr std::size_t kMost = 120;
+    if (path_.size() <= kMost) return path_ + ": " + what;
+    return "..." + path_.substr(path_.size() - kMost) + ": " + what;
+  }
 
  private:
   /// A part of the path of the member that is read.

@@ -13,6 +13,14 @@
 namespace medial_vk {
 namespace {
 
+std::string lower_cased(std::string_view word) {
+  std::string result(word);
+  for (char& c : result) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return result;
+}
+
 class RingTable {
  public:
   explicit RingTable(const std::string& name) : name_(name) {}
@@ -69,10 +77,12 @@ class RingTable {
       return {};
     }
     constexpr std::array<std::string_view, 3> kColumns = {"x", "y", "ring"};
+    std::vector<std::string> lower(words.size());
+    std::ranges::transform(words, lower.begin(), lower_cased);
     for (std::size_t k = 0; k < kColumns.size(); ++k) {
-      const auto count = std::ranges::count(words, kColumns[k]);
+      const auto count = std::ranges::count(lower, kColumns[k]);
       if (count > 1) return line_error(name_, number, fmt::format("two columns are named {}", kColumns[k]));
-      const auto at = static_cast<std::size_t>(std::ranges::find(words, kColumns[k]) - words.begin());
+      const auto at = static_cast<std::size_t>(std::ranges::find(lower, kColumns[k]) - lower.begin());
       if (k < 2 && count == 0) {
         return line_error(name_, number,
                           "the first line must name the columns x and y, and others as it likes, or none");

@@ -30,12 +30,15 @@ void add_rings(const PreparedShape& shape, std::vector<PlaneRing>& rings) {
   }
 }
 
+Error no_inside() { return {ErrorCode::kInvalidMesh, "no area of it encloses anything"}; }
+
 Result<UnitedAreas> unite(std::vector<ShapeArea> areas, unsigned threads, const std::stop_token& stop) {
   UnitedAreas united;
   if (areas.size() == 1) {
     united.rings = std::move(areas.front().rings);
     united.rule = areas.front().rule;
     united.areas = 1;
+    if (std::ranges::none_of(united.rings, [](const PlaneRing& ring) { return ring.size() > 2; })) return no_inside();
     return united;
   }
   united.rule = FillRule::kNonZero;
@@ -55,7 +58,7 @@ Result<UnitedAreas> unite(std::vector<ShapeArea> areas, unsigned threads, const 
     united.crossings += shape.value().report.crossings;
     add_rings(shape.value(), united.rings);
   }
-  if (united.areas == 0) return Error{ErrorCode::kInvalidMesh, "no area of it encloses anything"};
+  if (united.areas == 0) return no_inside();
   return united;
 }
 

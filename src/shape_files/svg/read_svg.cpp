@@ -14,16 +14,32 @@
 namespace medial_vk {
 namespace {
 
+/// Where the first markup is that is neither a comment nor an instruction.
+std::size_t end_of_prolog(std::string_view text) {
+  for (std::size_t at = 0;;) {
+    at = text.find('<', at);
+    if (at == std::string_view::npos) return text.size();
+    const std::string_view rest = text.substr(at);
+    const std::string_view end = rest.starts_with("<!--") ? "-->" : rest.starts_with("<?") ? "?>" : "";
+    if (end.empty()) return at;
+    at = text.find(end, at + 2);
+    if (at == std::string_view::npos) return text.size();
+  }
+}
+
 /// Declarations within <!DOCTYPE ... [...]> are blanked, since the parser knows none; lines stay where they are.
 /// Entities that they declare are not replaced, so that no text of a file grows.
 std::string without_internal_subset(std::string_view bytes) {
   std::string text(bytes);
-  const std::size_t type = text.find("<!DOCTYPE");
-  if (type == std::string::npos) return text;
+  const std::size_t type = end_of_prolog(text);
+  if (!std::string_view(text).substr(type).starts_with("<!DOCTYPE")) return text;
   const std::size_t open = text.find_first_of("[>", type);
   if (open == std::string::npos || text[open] == '>') return text;
-  const std::size_t close = text.find("]", open);
-  if (close == std::string::npos) return text;
+  std::size_t close = open;
+  do {
+    close = text.find(']', close + 1);
+    if (close == std::string::npos) return text;
+  } while (text.find_first_not_of(" \t\r\n", close + 1) != text.find('>', close + 1));
   for (std::size_t i = open; i <= close; ++i) {
     if (text[i] != '\n' && text[i] != '\r') text[i] = ' ';
   }
@@ -66,7 +82,7 @@ void state_assumptions(const SvgDrawing& drawing, std::vector<std::string>& s) {
 }
 
 std::string name_of(const tinyxml2::XMLElement& element) {
-  // A name beyond those of SVG is no element with an outline, so this one is short.
+  // Faults are those of elements with known names, so it is short.
   return fmt::format("<{}>", local_name(element));
 }
 

@@ -17,6 +17,8 @@ namespace medial_vk {
 inline constexpr std::uint64_t kMostSvgInstances = 1u << 20;
 /// Elements `use` within one another.
 inline constexpr std::size_t kMostSvgUses = 32;
+/// Elements within one another, those that `use` shows among them.
+inline constexpr int kMostSvgDepth = 256;
 
 struct SvgAreas {
   std::vector<ShapeArea> areas;  ///< One for each element that is filled.

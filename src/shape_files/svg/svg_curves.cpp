@@ -47,6 +47,19 @@ PlanePoint point_of(const PlaneCurve& curve, const PlanePoint& start, double t) 
   return mixed(mixed(a, b, t), mixed(b, c, t), t);
 }
 
+/// The points of an arc where a coordinate is greatest or least.
+void add_turning_points(const PlaneCurve& arc, CurveBox& box) {
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double turning = std::atan2(arc.second[k], arc.first[k]);
+    for (const double angle : {turning, turning + kPi}) {
+      double from_begin = std::fmod(angle - arc.begin, 2 * kPi);
+      if (from_begin < 0 && arc.sweep > 0) from_begin += 2 * kPi;
+      if (from_begin > 0 && arc.sweep < 0) from_begin -= 2 * kPi;
+      if (std::fabs(from_begin) <= std::fabs(arc.sweep)) box.add(point_of(arc, {}, from_begin / arc.sweep));
+    }
+  }
+}
+
 }  // namespace
 
 CurveBox::CurveBox() {
@@ -67,9 +80,7 @@ void CurveBox::add(const Outline& outline) {
   for (const PlaneCurve& curve : outline.curves) {
     add(curve.end);
     if (curve.kind == CurveKind::kArc) {
-      const double x = length(curve.first[0], curve.second[0]), y = length(curve.first[1], curve.second[1]);
-      add(PlanePoint{curve.centre[0] - x, curve.centre[1] - y});
-      add(PlanePoint{curve.centre[0] + x, curve.centre[1] + y});
+      add_turning_points(curve, *this);
     } else if (curve.kind != CurveKind::kLine) {
       add(curve.first);
       if (curve.kind == CurveKind::kCubic) add(curve.second);

@@ -34,7 +34,7 @@ struct CurveBox {
   CurveBox();
 
   void add(const PlanePoint& p);
-  /// The ends and control points of the curves, and the whole ellipses of arcs: a box around the outline.
+  /// The ends and control points of the curves, and arcs: a box around the outline.
   void add(const Outline& outline);
   double longest_side() const;
 };

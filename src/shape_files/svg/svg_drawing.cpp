@@ -82,8 +82,11 @@ class SvgVisitor {
     place.matrix = transform_of(root_);
     const SvgViewport unknown;
     const auto size = [&](const char* attribute) -> std::optional<double> {
-      if (svg_attribute(root_, attribute).find('%') != std::string_view::npos) return {};
-      return svg_length(root_, attribute, unknown, LengthOf::kWidth);
+      try {
+        return svg_length(root_, attribute, unknown, LengthOf::kWidth);
+      } catch (const SvgFault&) {
+        return {};  // in units of a font or of a window
+      }
     };
     const std::optional<double> width = size("width"), height = size("height");
     if ((width && *width < 0) || (height && *height < 0)) throw SvgFault{"width or height is negative"};
@@ -108,6 +111,17 @@ class SvgVisitor {
   }
 
   void visit(const XMLElement& element, const Place& outer) {
+    bytes_ += bytes_of_attributes(element);
+    if (++elements_ > most_elements_ || bytes_ > most_bytes_) {
+      throw SvgElementFault{&root_, "the elements <use> of the file show too many elements"};
+    }
+    if (depth_ == kMostSvgDepth) throw SvgElementFault{&root_, "elements are nested too deeply"};
+    ++depth_;
+    visit_counted(element, outer);
+    --depth_;
+  }
+
+  void visit_counted(const XMLElement& element, const Place& outer) {
     if (prefix_of(element) != prefix_) return;  // of another namespace, such as those of editors
     const std::string_view kind = local_name(element);
     const bool groups = kind == "g" || kind == "a" || kind == "switch";
@@ -133,11 +147,6 @@ class SvgVisitor {
 
   /// The place within an element; false if it is not displayed.
   bool enter(const XMLElement& element, const Place& outer, Place& place) {
-    elements_ += 1;
-    bytes_ += bytes_of_attributes(element);
-    if (elements_ > most_elements_ || bytes_ > most_bytes_) {
-      throw SvgFault{"the elements `use` of the file show too many elements"};
-    }
     if (svg_property(element, "display") == "none") {
       ++drawing_.hidden;
       return false;
@@ -209,7 +218,7 @@ class SvgVisitor {
       place.matrix = place.matrix * SvgMatrix{1, 0, 0, 1, x, y};
       if (std::ranges::find(active_, &element) != active_.end()) throw SvgFault{"it refers to itself"};
       if (active_.size() == kMostSvgUses) {
-        throw SvgFault{fmt::format("it is within more than {} other elements `use`", kMostSvgUses)};
+        throw SvgFault{fmt::format("it is within more than {} other elements <use>", kMostSvgUses)};
       }
     });
     if (target == nullptr) {
@@ -242,6 +251,7 @@ class SvgVisitor {
   const XMLElement& root_;
   std::string_view prefix_;
   std::uint64_t most_elements_, most_bytes_, elements_ = 0, bytes_ = 0;
+  int depth_ = 0;
   std::map<std::string_view, const XMLElement*> by_id_;
   std::vector<const XMLElement*> active_;
   SvgDrawing drawing_;
