@@ -189,7 +189,7 @@ class WktReader {
     }
     const bool fine = coordinates == 0 ? count >= 2 && count <= 4 : count == coordinates;
     if (!fine) {
-      throw fault(fmt::format("a position has {} numbers instead of {}", count,
+      throw fault(fmt::format("numbers of a position: {} instead of {}", count,
                               coordinates == 0 ? std::string("2 to 4") : std::to_string(coordinates)));
     }
     return p;

@@ -152,8 +152,8 @@ TEST(Wkt, MistakesAreNamed) {
   EXPECT_EQ(fault_of_wkt("\n\nCIRCULARSTRING(0 0,1 1,2 0)"),
             "g.wkt:3: the geometry \"CIRCULARSTRING\" is not supported");
   EXPECT_EQ(fault_of_wkt("POLYGON(0 0,1 1)"), "g.wkt:1: '(' is expected before \"0 0,1 1)\"");
-  EXPECT_EQ(fault_of_wkt("POLYGON Z((0 0,1 1,2 0))"), "g.wkt:1: a position has 2 numbers instead of 3");
-  EXPECT_EQ(fault_of_wkt("POLYGON((0 0,1,2 0))"), "g.wkt:1: a position has 1 numbers instead of 2 to 4");
+  EXPECT_EQ(fault_of_wkt("POLYGON Z((0 0,1 1,2 0))"), "g.wkt:1: numbers of a position: 2 instead of 3");
+  EXPECT_EQ(fault_of_wkt("POLYGON((0 0,1,2 0))"), "g.wkt:1: numbers of a position: 1 instead of 2 to 4");
   EXPECT_EQ(fault_of_wkt("POLYGON((0 0,1e151 1,2 0))"), "g.wkt:1: \"1e151\" is beyond 1e150");
   EXPECT_EQ(fault_of_wkt("POLYGON((0 0,nan 1,2 0))"), "g.wkt:1: \"nan\" is not finite");
   EXPECT_EQ(fault_of_wkt("SRID=x;POINT(1 1)"), "g.wkt:1: SRID= is not followed by a whole number and ';'");
