@@ -80,9 +80,9 @@ class PlaceSearch {
     std::vector<Point> open;
     std::vector<std::size_t> numbers;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const auto& [diameter, ball, object_angle] = at_points[i];
+      const Bounds& diameter = at_points[i].diameter;
       const bool is_thick = diameter.lower >= record_.demanded * (1 - kThinShare);
-      const bool is_in_wall = diameter.lower >= least_of_walls() && object_angle >= record_.object_angle;
+      const bool is_in_wall = diameter.lower >= least_of_walls() && at_points[i].object_angle >= record_.object_angle;
       if (is_thick || (diameter.upper < record_.demanded && is_in_wall)) continue;
       open.push_back(points[i]);
       numbers.push_back(i);
