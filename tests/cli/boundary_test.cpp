@@ -122,7 +122,7 @@ TEST_F(BoundaryOfATool, LeastWallsNeedAClosedMeshAndAnglesALeastWall) {
   EXPECT_THAT(result.err, HasSubstr("the least wall, or gap, is that of a closed one"));
   const ToolResult angle = run_cpu({"plate.obj", "--wall-angle", "1.3"});
   EXPECT_EQ(angle.exit_code, 2);
-  EXPECT_THAT(angle.err, HasSubstr("use it with --least-wall, --least-gap, --min-wall or --min-gap"));
+  EXPECT_THAT(angle.err, HasSubstr("use it with --thickness, --least-wall, --least-gap, --min-wall or --min-gap"));
 }
 
 TEST_F(BoundaryOfATool, AllOutputsAreWritten) {

@@ -32,7 +32,7 @@ struct ThicknessOptions {
   /// In mesh units: balls are not searched for beyond this diameter. 0: the longest side, which no ball inside exceeds.
   double limit = 0;
   std::uint32_t queries = 1000;  ///< Distances that may be computed for a point; then its interval is left wider.
-  /// Object angles, in radians, that tell kinds apart (ThicknessKind): a wall has at least the first, and facets have
+  /// Object angles, in radians, that distinguish kinds (ThicknessKind): a wall has at least the first, and facets have
   /// less than the second, which is 0 or more and at most the first, up to pi / 2.
   double wall_angle = 1.2, crease_angle = 0.25;
   unsigned threads = 0;  ///< Of the host, 0: one per core. The result does not depend on it.

@@ -42,7 +42,7 @@ Thickness LargestBallNear::find(const Point& p, const Point& inward) {
 
 /// The largest ball has a diameter of at most the upper end: where it is between parallel faces, one of the lower end
 /// that touches one of them leaves no more than the width to the other. In a round limb three contacts at equal angles
-/// prove the upper end; whether there are opposite ones, too, is asked across from the two that are farthest apart.
+/// prove the upper end; opposite ones are looked up across from the two that are farthest apart.
 void LargestBallNear::describe(const Point& p, Thickness& out) {
   out.contacts = {p, p};
   if (!(out.ball.radius > 0)) return;

@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::size_t kPointsForPlaces = 10'000, kMostPlaces = 20;
 
-// Of what is demanded. Points of the boundary this close to a ball of a hundred times the radius count as contacts, so
-// that object angles are too large by acos(100 / 101) = 0.14 radians at most.
+// Of what is demanded. Points of the boundary this close to a ball of a hundred times the radius count as contacts: in
+// directions from its centre, they are within acos(100 / 101) = 0.14 radians of where a plane may touch it.
 constexpr double kDeltaShare = 0.005;
 
 // Of what is demanded: the search ends when this share is left, and smaller walls are looked for below the same share.
