@@ -25,12 +25,14 @@ struct ThicknessOptions {
   /// longest side, which is a twentieth of a voxel at resolution 100.
   double delta = 0;
   /// Of an interval, relative to its lower end: the search at a point ends when its interval is no wider, or no wider
-  /// than a quarter of delta.
+  /// than a fifth of delta.
   /// Where the width is less than delta over the thickness, a point takes ten times the distances and more: contacts on
   /// both sides of the wall are then needed in each direction (docs/theory.md, "Thickness").
   double width = 0.02;
   /// In mesh units: balls are not searched for beyond this diameter. 0: the longest side, which no ball inside exceeds.
   double limit = 0;
+  /// Distances for a point, after which an interval of five times the width is enough.
+  std::uint32_t patience = 50;
   std::uint32_t queries = 1000;  ///< Distances that may be computed for a point; then its interval is left wider.
   /// Object angles, in radians, that distinguish kinds (ThicknessKind): a wall has at least the first, and facets have
   /// less than the second, which is 0 or more and at most the first, up to pi / 2.

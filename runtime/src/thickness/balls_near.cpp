@@ -14,7 +14,10 @@ constexpr double kInset = 0x1p-20;
 constexpr double kLeastShare = 0x1p-4;
 
 // A search also ends when the radius is known to this share of delta (docs/decisions.md).
-constexpr double kGapShare = 0.125;
+constexpr double kGapShare = 0.1;
+
+// An interval that is this many times as wide is enough where a narrow one takes too long (docs/decisions.md).
+constexpr double kWidening = 5;
 
 constexpr std::size_t kMostOthers = 8, kMostKept = 24;
 
@@ -72,7 +75,7 @@ BallsNear::Probe BallsNear::probe_at(const Point& direction, double distance) {
   const double bound = std::min(std::sqrt(squared), by_p) * (1 + 0x1p-20) + rounding_;
   BvhHit hit = field_.tree.closest(field_.solid.bvh(), p_ + offset, bound);
   if (hit.triangle == BvhHit().triangle) hit = field_.tree.closest(field_.solid.bvh(), p_ + offset);  // by rounding
-  ++queries_;
+  if (++queries_ == field_.options.patience) raise_target(std::max(best_.radius, doubtful_));
   const double radius = std::sqrt(hit.squared_distance) - rounding_;
   const Point at = hit.point - p_;
   add({at, dot(at, at)}, unit_or_zero(at - offset));
@@ -144,8 +147,18 @@ void BallsNear::record(const Point& offset, double radius) {
     others_.push_back({offset, radius});
     return;
   }
-  const double gap = std::max(field_.options.width * counted, kGapShare * delta_);
+  const double gap = gap_above(counted);
   if (counted + 0.5 * gap > target_) target_ = (counted + gap) * kBoundRounding;
+}
+
+/// How much larger balls need not be found.
+double BallsNear::gap_above(double radius) const {
+  const double width = (queries_ < field_.options.patience ? 1 : kWidening) * field_.options.width;
+  return std::max(width * radius, kGapShare * delta_);
+}
+
+void BallsNear::raise_target(double radius) {
+  if (radius > 0) target_ = std::max(target_, (radius + gap_above(radius)) * kBoundRounding);
 }
 
 /// The side of all centres in a ball. In a closed mesh, balls that overlap are on one side, as the boundary meets

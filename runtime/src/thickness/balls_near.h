@@ -82,6 +82,8 @@ class BallsNear {
   void go_back(const Point& direction, double distance, Probe found);
   void add(const Contact& contact, const Point& normal);
   void record(const Point& offset, double radius);
+  double gap_above(double radius) const;
+  void raise_target(double radius);
   bool is_point(std::size_t contact) const { return normals_[contact] != Point{0, 0, 0}; }
   SolidSide side_of(const Point& centre, double radius) const;
 

@@ -51,6 +51,7 @@ class PlaceSearch {
     how_.delta = std::min(options.thickness_delta * mesh.longest_side(), kDeltaShare * record.demanded);
     how_.limit = 2 * record.demanded;
     how_.threads = options.threads;
+    how_.patience = how_.queries;
   }
 
   /// Where points of equal areas are proved to be too thin, and the place of the thinnest ball if none of them is.

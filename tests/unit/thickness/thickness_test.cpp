@@ -23,13 +23,14 @@ namespace {
 constexpr double kDelta = 0.004;
 
 /// Of an interval that holds this thickness, or has this upper end, up to a hundredth.
-double widest(double thickness) { return 1.01 * std::max(ThicknessOptions().width * thickness, 0.25 * kDelta); }
+double widest(double thickness) { return 1.01 * std::max(ThicknessOptions().width * thickness, 0.2 * kDelta); }
 
 ThicknessOptions options_with(ThicknessSide side = ThicknessSide::kWalls) {
   ThicknessOptions options;
   options.delta = kDelta;
   options.side = side;
   options.queries = 4000;  // walls of some ten deltas take more distances than there are by default
+  options.patience = options.queries;
   return options;
 }
 
@@ -63,6 +64,7 @@ TEST(Thickness, OfABox) {
 TEST(Thickness, HasTheseDefaults) {
   EXPECT_EQ(ThicknessOptions().width, 0.02);
   EXPECT_EQ(ThicknessOptions().queries, 1000u);
+  EXPECT_EQ(ThicknessOptions().patience, 50u);
 }
 
 // The end of a wall between two boxes is a gap; beyond the outer faces there is no other boundary.
@@ -335,6 +337,24 @@ TEST(Thickness, WithinABudget) {
     EXPECT_GE(wide[i].diameter.upper, all[i].diameter.lower);
     wider += wide[i].diameter.upper > 1.03 * wide[i].diameter.lower ? 1 : 0;
     EXPECT_LE(all[i].diameter.upper, 1.03 * all[i].diameter.lower);
+  }
+  EXPECT_GT(wider, 0u);
+}
+
+// Later a wider interval is enough; both hold the thickness. Beyond the width there is what may be left of a tenth of
+// delta, and half of a target's share above the ball.
+TEST(Thickness, AnImpatientSearchEndsWithAnIntervalFiveTimesAsWide) {
+  const IndexedMesh mesh = solid_of(make_turned_torus(40, 24));
+  const std::vector<Point>& points = mesh.prepared().mesh.vertices;
+  ThicknessOptions impatient = options_with();
+  impatient.patience = 2;
+  const std::vector<Thickness> wide = thickness_at(mesh, points, impatient), all = thickness_at(mesh, points);
+  std::size_t wider = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    expect_overlap(wide[i], all[i]);
+    const double width = wide[i].diameter.upper - wide[i].diameter.lower;
+    EXPECT_LE(width, 1.01 * std::max(5 * impatient.width * wide[i].diameter.lower, 0.2 * kDelta));
+    wider += width > widest(wide[i].diameter.lower) ? 1 : 0;
   }
   EXPECT_GT(wider, 0u);
 }
