@@ -25,7 +25,7 @@ struct ThicknessOptions {
   /// longest side, which is a twentieth of a voxel at resolution 100.
   double delta = 0;
   /// Of an interval, relative to its lower end: the search at a point ends when its interval is no wider, or no wider
-  /// than a fifth of delta.
+  /// than a quarter of delta (a fifth if the diameter is 2 delta or less).
   /// Where the width is less than delta over the thickness, a point takes ten times the distances and more: contacts on
   /// both sides of the wall are then needed in each direction (docs/theory.md, "Thickness").
   double width = 0.02;

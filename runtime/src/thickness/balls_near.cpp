@@ -13,8 +13,9 @@ constexpr double kInset = 0x1p-20;
 // Smaller balls than this share of delta are not searched for.
 constexpr double kLeastShare = 0x1p-4;
 
-// A search also ends when the radius is known to this share of delta (docs/decisions.md).
-constexpr double kGapShare = 0.1;
+// A search also ends when the radius is known to the first share of delta, or to the last share of itself if that is
+// less, but not less than the second share of delta (docs/decisions.md).
+constexpr double kGapShare = 0.125, kLeastGapShare = 0.1, kUsefulShare = 0.1;
 
 // An interval that is this many times as wide is enough where a narrow one takes too long (docs/decisions.md).
 constexpr double kWidening = 5;
@@ -154,7 +155,7 @@ void BallsNear::record(const Point& offset, double radius) {
 /// How much larger balls need not be found.
 double BallsNear::gap_above(double radius) const {
   const double width = (queries_ < field_.options.patience ? 1 : kWidening) * field_.options.width;
-  return std::max(width * radius, kGapShare * delta_);
+  return std::max(width * radius, std::clamp(kUsefulShare * radius, kLeastGapShare * delta_, kGapShare * delta_));
 }
 
 void BallsNear::raise_target(double radius) {
