@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/options/measures.h"
+#include "medial_vk/thickness.h"
 #include "unit/cli/parse_results.h"
 
 namespace medial_vk::cli {
@@ -57,6 +58,15 @@ TEST(BoundaryOptions, TheColourIsThatOfWhatIsMeasured) {
   const Options both = run_with({"--boundary", "b.glb", "--picture", "p.png", "--colour", "kappa2"});
   EXPECT_EQ(both.look.colour, PictureColour::kAngle);
   EXPECT_EQ(boundary_colour_of(both), BoundaryColour::kKappa2);
+}
+
+TEST(BoundaryOptions, HaveTheDefaultsOfTheLibrary) {
+  const ThicknessOptions usual;
+  EXPECT_EQ(Options().thickness_width, usual.width);
+  EXPECT_EQ(Options().wall_angle, usual.wall_angle);
+  EXPECT_EQ(usual.width, 0.02);
+  EXPECT_EQ(usual.patience, 50u);
+  EXPECT_EQ(usual.queries, 1000u);
 }
 
 TEST(BoundaryOptions, HaveRanges) {

@@ -61,12 +61,6 @@ TEST(Thickness, OfABox) {
   expect_holds(found[3], 2 * kDelta / (std::numbers::sqrt3 - 1));
 }
 
-TEST(Thickness, HasTheseDefaults) {
-  EXPECT_EQ(ThicknessOptions().width, 0.02);
-  EXPECT_EQ(ThicknessOptions().queries, 1000u);
-  EXPECT_EQ(ThicknessOptions().patience, 50u);
-}
-
 // The end of a wall between two boxes is a gap; beyond the outer faces there is no other boundary.
 TEST(Thickness, OfAGap) {
   Mesh both = make_box({1, 1, 1});
