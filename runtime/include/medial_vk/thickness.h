@@ -31,7 +31,7 @@ struct ThicknessOptions {
   double width = 0.02;
   /// In mesh units: balls are not searched for beyond this diameter. 0: the longest side, which no ball inside exceeds.
   double limit = 0;
-  /// Distances for a point, after which an interval of five times the width is enough.
+  /// Distances for a point, after which an interval of four times the width is enough.
   std::uint32_t patience = 50;
   std::uint32_t queries = 1000;  ///< Distances that may be computed for a point; then its interval is left wider.
   /// Object angles, in radians, that distinguish kinds (ThicknessKind): a wall has at least the first, and facets have

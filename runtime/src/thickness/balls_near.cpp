@@ -18,7 +18,7 @@ constexpr double kLeastShare = 0x1p-4;
 constexpr double kGapShare = 0.125, kLeastGapShare = 0.1, kUsefulShare = 0.1;
 
 // An interval that is this many times as wide is enough where a narrow one takes too long (docs/decisions.md).
-constexpr double kWidening = 5;
+constexpr double kWidening = 4;
 
 constexpr std::size_t kMostOthers = 8, kMostKept = 24;
 

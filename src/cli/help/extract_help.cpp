@@ -92,7 +92,7 @@ What is measured on the boundary, for summary, report, page and these files:
                         the longest side, below 0.1 (default 0.0005)
       --thickness-width W  the search for a point ends when its interval is no
                         wider than W times its lower end, 1e-6 to 1 (default
-                        0.02), or five times that after 50 distances
+                        0.02), or four times that after 50 distances
       --least-wall      the thinnest wall of a closed mesh, proved to a
                         hundredth unless cells of space run out, and its place
       --least-gap       the same for gaps outside, up to a quarter of the

@@ -336,7 +336,7 @@ TEST(Thickness, WithinABudget) {
 }
 
 // Later a wider interval is enough; both hold the thickness.
-TEST(Thickness, AnImpatientSearchEndsWithAnIntervalFiveTimesAsWide) {
+TEST(Thickness, AnImpatientSearchEndsWithAnIntervalFourTimesAsWide) {
   const IndexedMesh mesh = solid_of(make_turned_torus(40, 24));
   const std::vector<Point>& points = mesh.prepared().mesh.vertices;
   ThicknessOptions impatient = options_with();
@@ -346,7 +346,7 @@ TEST(Thickness, AnImpatientSearchEndsWithAnIntervalFiveTimesAsWide) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     expect_overlap(wide[i], all[i]);
     const double width = wide[i].diameter.upper - wide[i].diameter.lower;
-    EXPECT_LE(width, 1.01 * std::max(5 * impatient.width * wide[i].diameter.lower, 0.25 * kDelta));
+    EXPECT_LE(width, 1.01 * std::max(4 * impatient.width * wide[i].diameter.lower, 0.25 * kDelta));
     wider += width > widest(wide[i].diameter.lower) ? 1 : 0;
   }
   EXPECT_GT(wider, 0u);
