@@ -45,6 +45,18 @@ void add_thickness(BoundaryFields& fields, std::span<const Thickness> of_vertice
   fields.of_vertices.push_back(std::move(upper));
   fields.of_vertices.push_back(
       numbers(field_names::kObjectAngle, of_vertices, [](const Thickness& t) { return t.object_angle; }));
+  BoundaryField kinds =
+      numbers(field_names::kThicknessKind, of_vertices, [](const Thickness& t) { return static_cast<double>(t.kind); });
+  kinds.is_whole = true;
+  fields.of_vertices.push_back(std::move(kinds));
+  fields.of_balls.push_back(
+      vectors(field_names::kBallCentre, of_vertices, [](const Thickness& t) -> const Point& { return t.ball.centre; }));
+  fields.of_balls.push_back(
+      numbers(field_names::kBallRadius, of_vertices, [](const Thickness& t) { return t.ball.radius; }));
+  fields.of_balls.push_back(
+      vectors(field_names::kContactA, of_vertices, [](const Thickness& t) -> const Point& { return t.contacts[0]; }));
+  fields.of_balls.push_back(
+      vectors(field_names::kContactB, of_vertices, [](const Thickness& t) -> const Point& { return t.contacts[1]; }));
 }
 
 void add_curvature(BoundaryFields& fields, std::span<const VertexCurvature> of_vertices,
@@ -65,6 +77,12 @@ void add_curvature(BoundaryFields& fields, std::span<const VertexCurvature> of_v
     return c.ball < spheres.size() ? std::max(spheres[c.ball].sheet, -1) : -1;
   };
   add(numbers(field_names::kSheet, of_vertices, sheet), true);
+}
+
+std::string_view kind_name(ThicknessKind kind) {
+  constexpr std::array<std::string_view, kThicknessKinds.size()> kNames = {"none", "facets", "crease", "corner",
+                                                                           "wall"};
+  return kNames[static_cast<std::size_t>(kind)];
 }
 
 std::string_view state_name(CurvatureState state) {

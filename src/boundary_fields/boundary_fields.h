@@ -1,6 +1,7 @@
 // What was measured at the vertices of the boundary, by name, for every file, picture and page that shows it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -26,6 +27,7 @@ struct BoundaryField {
 
 struct BoundaryFields {
   std::vector<BoundaryField> of_vertices;
+  std::vector<BoundaryField> of_balls;  ///< Of the ball at each vertex, for tables alone.
 
   /// Null: it was not measured.
   const BoundaryField* find(std::string_view name) const;
@@ -42,7 +44,9 @@ enum class BoundaryColour : std::uint8_t {
 namespace field_names {
 
 inline constexpr std::string_view kThicknessLower = "thickness_lower", kThicknessUpper = "thickness_upper";
-inline constexpr std::string_view kObjectAngle = "object_angle";
+inline constexpr std::string_view kObjectAngle = "object_angle", kThicknessKind = "thickness_kind";
+inline constexpr std::string_view kBallCentre = "ball_centre", kBallRadius = "ball_radius";
+inline constexpr std::string_view kContactA = "contact_a", kContactB = "contact_b";
 inline constexpr std::string_view kKappa1 = "kappa_1", kKappa2 = "kappa_2";
 inline constexpr std::string_view kDirection1 = "direction_1", kDirection2 = "direction_2";
 inline constexpr std::string_view kCurvatureError = "curvature_error", kCurvatureState = "curvature_state";
@@ -50,12 +54,18 @@ inline constexpr std::string_view kSheet = "sheet";
 
 }  // namespace field_names
 
-/// Adds both ends of the intervals, and the object angle of the balls that give the lower ends.
+/// Adds both ends of the intervals, and the object angles and kinds of the balls that give the lower ends; `of_balls`
+/// takes these balls with two contacts each.
 void add_thickness(BoundaryFields& fields, std::span<const Thickness> of_vertices);
 
 /// Adds curvatures, directions, errors, states, and the sheets of the balls that give them (-1: none).
 void add_curvature(BoundaryFields& fields, std::span<const VertexCurvature> of_vertices,
                    std::span<const MedialSphere> spheres);
+
+/// "none", "facets", "crease", "corner" or "wall".
+std::string_view kind_name(ThicknessKind kind);
+inline constexpr std::array<ThicknessKind, 5> kThicknessKinds = {
+    ThicknessKind::kNone, ThicknessKind::kFacets, ThicknessKind::kCrease, ThicknessKind::kCorner, ThicknessKind::kWall};
 
 /// "known", "cut" and so on: the words of the files for the numbers of a state.
 std::string_view state_name(CurvatureState state);

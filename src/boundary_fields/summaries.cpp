@@ -48,11 +48,18 @@ double area_of(const Mesh& mesh) {
   return std::accumulate(areas.begin(), areas.end(), 0.0);
 }
 
-ThicknessRecord summarise_thickness(std::span<const Point> points, std::vector<Thickness> at_points, double delta,
-                                    double width) {
+double ThicknessRecord::share(ThicknessKind kind) const {
+  const auto points = static_cast<double>(std::max<std::size_t>(intervals.size(), 1));
+  return static_cast<double>(of_kind[static_cast<std::size_t>(kind)]) / points;
+}
+
+ThicknessRecord summarise_thickness(std::span<const Point> points, std::span<const Thickness> at_points,
+                                    const ThicknessOptions& how) {
   ThicknessRecord record;
-  record.delta = delta;
-  record.width = width;
+  record.delta = how.delta;
+  record.width = how.width;
+  record.wall_angle = how.wall_angle;
+  record.crease_angle = how.crease_angle;
   std::vector<double> lower, upper;
   record.intervals.reserve(at_points.size());
   lower.reserve(at_points.size());
@@ -64,7 +71,9 @@ ThicknessRecord summarise_thickness(std::span<const Point> points, std::vector<T
     upper.push_back(interval.upper);
     if (interval.upper - interval.lower > kWideInterval * interval.lower) ++record.wide;
     record.greatest = std::max(record.greatest, interval.upper);
-    const bool is_wall = at_points[i].object_angle >= kWallAngle && 2 * at_points[i].ball.radius >= kWallDeltas * delta;
+    ++record.of_kind[static_cast<std::size_t>(at_points[i].kind)];
+    const bool is_wall =
+        at_points[i].kind == ThicknessKind::kWall && 2 * at_points[i].ball.radius >= kWallDeltas * how.delta;
     if (is_wall && (!record.least || interval.lower < record.least->lower)) {
       record.least = interval;
       record.least_at = points[i];

@@ -1,6 +1,7 @@
 // Measures of a whole boundary: how thick its walls are by area, and how it is curved.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -21,23 +22,29 @@ double area_of(const Mesh& mesh);
 struct ThicknessRecord {
   double delta = 0;               ///< In mesh units.
   double width = 0;               ///< Of an interval, relative to its lower end, at which the search ended.
+  double wall_angle = 0;          ///< Object angle of walls, at least, in radians.
+  double crease_angle = 0;        ///< The same of creases and corners.
   std::vector<Bounds> intervals;  ///< By point.
   Bounds median;                  ///< Of lower and of upper ends: holds the median over these points.
   std::uint64_t wide = 0;         ///< Points whose interval is wider than kWideInterval of its lower end.
   std::optional<Bounds> least;    ///< The interval of the least lower end in a wall; none: no point is in a wall.
   Point least_at = {0, 0, 0};     ///< Its point.
   double greatest = 0;            ///< The greatest upper end.
+  std::array<std::uint64_t, kThicknessKinds.size()> of_kind = {};  ///< Points, by kind.
+
+  /// Of the area; 0 without points.
+  double share(ThicknessKind kind) const;
 };
 
 /// An interval that is no wider tells one wall from another.
 inline constexpr double kWideInterval = 0.1;
-/// A ball is in a wall if it has this object angle, in radians, and a diameter of this many deltas. At a right-angled
-/// edge the object angle is pi / 4 for points of contact alone, and with points within delta of a ball of radius r
-/// pi / 4 + acos(r / (r + delta)), which is 1.371 for r = 5 delta and less for larger ones.
-inline constexpr double kWallAngle = 1.4, kWallDeltas = 10;
+/// The least wall that is met has a diameter of at least this many deltas: at edges so sharp that they are walls of no
+/// thickness, the ball within delta of the edge is smaller.
+inline constexpr double kWallDeltas = 10;
 
-ThicknessRecord summarise_thickness(std::span<const Point> points, std::vector<Thickness> at_points, double delta,
-                                    double width);
+/// `how`: with delta and the angles that were used.
+ThicknessRecord summarise_thickness(std::span<const Point> points, std::span<const Thickness> at_points,
+                                    const ThicknessOptions& how);
 
 /// By vertices, each with a third of the area of its triangles.
 struct CurvatureRecord {

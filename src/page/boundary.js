@@ -10,6 +10,7 @@ export function readBoundary(described) {
     colours: described.colours.map((colour) => ({...colour, ofVertices: block(`colour-${colour.name}`, Uint8Array)})),
     fields: Object.fromEntries(described.fields.map((name) => [name, block(`field-${name}`, Float32Array)])),
     states: described.states,
+    kinds: described.kinds,
     directions: described.directions.map((name) => block(`field-${name}`, Int16Array)),
   };
 }
@@ -24,11 +25,11 @@ export function cornerColours(ofVertices, triangles, colours) {
 const number = (x) => (Number.isNaN(x) ? 'unknown' : brief(x));
 
 /** Names and values of a vertex for the panel. */
-export function vertexValues({fields, states}, v) {
+export function vertexValues({fields, states, kinds}, v) {
   const rows = [['vertex', String(v)]];
   if (fields.thickness_lower) {
     rows.push(['thickness', `${number(fields.thickness_lower[v])} to ${number(fields.thickness_upper[v])}`]);
-    rows.push(['object angle', `${fields.object_angle[v].toFixed(3)} rad`]);
+    rows.push(['kind', kinds[fields.thickness_kind[v]]], ['object angle', `${fields.object_angle[v].toFixed(3)} rad`]);
   }
   if (fields.kappa_1) {
     rows.push(['kappa 1', number(fields.kappa_1[v])], ['kappa 2', number(fields.kappa_2[v])],

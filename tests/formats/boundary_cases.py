@@ -1,5 +1,7 @@
 """The cases of read_back.py for --boundary: the same numbers in every format."""
 import base64
+import csv
+import json
 import math
 import subprocess
 import sys
@@ -10,10 +12,12 @@ import numpy as np
 
 from glb_cases import accessor, parse_glb
 
-SCALARS = ["thickness_lower", "thickness_upper", "object_angle", "kappa_1", "kappa_2", "curvature_error",
+SCALARS = ["thickness_lower", "thickness_upper", "object_angle", "thickness_kind", "kappa_1", "kappa_2", "curvature_error",
            "curvature_state", "sheet"]
 VECTORS = ["direction_1", "direction_2"]
-WHOLE = ["curvature_state", "sheet"]
+WHOLE = ["thickness_kind", "curvature_state", "sheet"]
+KINDS = ["none", "facets", "crease", "corner", "wall"]
+OF_BALLS = ["ball_centre", "ball_radius", "contact_a", "contact_b"]
 
 
 def ellipsoid(rings=14, around=20):
@@ -63,6 +67,9 @@ def expect_sense(points, triangles, data):
     for name in VECTORS:
         assert np.abs(np.linalg.norm(data[name][both], axis=1) - 1).max() < 1e-12
     assert np.abs(np.sum(data["direction_1"][both] * data["direction_2"][both], axis=1)).max() < 1e-9
+    # Opposite normals, and others.
+    assert np.all((data["thickness_kind"] == 4) == (data["object_angle"] >= 1.2)) and 4 in data["thickness_kind"]
+    assert np.all((data["thickness_kind"] == 1) == (data["object_angle"] < 0.25))
     assert set(np.unique(data["curvature_state"])) <= set(range(9)) and data["sheet"].min() >= -1
 
 
@@ -167,6 +174,65 @@ def boundary_glb_by_assimp(run):
     assert "COLOR_0" in primitive["attributes"]
 
 
-CASES = {"boundary_ply": boundary_ply, "boundary_ply_text": boundary_ply_text, "boundary_vtp": boundary_vtp,
+def expect_balls(points, data, delta):
+    """Each ball comes within delta of its point, and no contact is inside it or beyond the width of the interval."""
+    radius, width = data["ball_radius"], data["thickness_upper"] - data["thickness_lower"]
+    assert np.array_equal(2 * radius, data["thickness_lower"])
+    away = np.linalg.norm(data["ball_centre"] - points, axis=1)
+    assert np.all(away[radius > 0] <= (radius + delta)[radius > 0] * (1 + 1e-12))
+    for name in ("contact_a", "contact_b"):
+        distance = np.linalg.norm(data[name] - data["ball_centre"], axis=1)[radius > 0]
+        assert np.all(distance >= radius[radius > 0] * (1 - 1e-9)), name
+        assert np.all(distance <= (radius + delta + width)[radius > 0] * (1 + 1e-9)), name
+
+
+def boundary_npz(run):
+    points, triangles, wanted = fields_of_ply(boundary_of(run, "boundary.ply"))
+    with np.load(boundary_of(run, "boundary.npz")) as file:
+        data = {name: file[name] for name in file.files}
+    assert set(data) == {"version", "delta", "points", "triangles", *SCALARS, *VECTORS, *OF_BALLS}
+    assert np.array_equal(data["points"], points) and np.array_equal(data["triangles"], triangles)
+    expect_same(data, wanted)
+    expect_balls(points, data, float(data["delta"]))
+
+
+def boundary_json(run):
+    with np.load(boundary_of(run, "boundary.npz")) as file:
+        wanted = {name: file[name] for name in file.files}
+    document = json.loads(boundary_of(run, "boundary.json").read_text())
+    assert document["delta"] == float(wanted["delta"]) and document["triangles"] == wanted["triangles"].tolist()
+    assert len(document["points"]) == len(wanted["points"])
+    for i, point in enumerate(document["points"]):
+        assert point["at"] == wanted["points"][i].tolist()
+        assert point["thickness_kind"] == KINDS[wanted["thickness_kind"][i]]
+        for name in [*SCALARS, *VECTORS, *OF_BALLS]:
+            if name not in ("thickness_kind", "curvature_state"):
+                found = np.array(point[name], dtype=float)  # null is NaN
+                assert np.array_equal(found, wanted[name][i], equal_nan=True), (i, name)
+
+
+def thickness_points(run):
+    for name in ("points.npz", "points.json", "points.csv"):
+        boundary_of(run, "boundary.ply", "--thickness", "--thickness-points", name)
+    with np.load(run.folder / "points.npz") as file:
+        data = {name: file[name] for name in file.files}
+    assert data["points"].shape == (10000, 3) and "triangles" not in data and "kappa_1" not in data
+    assert {4} < set(data["thickness_kind"].tolist())
+    expect_balls(data["points"], data, float(data["delta"]))
+    document = json.loads((run.folder / "points.json").read_text())
+    with open(run.folder / "points.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == len(document["points"]) == 10000
+    for i in range(0, 10000, 97):
+        point, row = document["points"][i], rows[i]
+        assert point["thickness_kind"] == row["thickness_kind"] == KINDS[data["thickness_kind"][i]]
+        for name in ("thickness_lower", "thickness_upper", "object_angle", "ball_radius"):
+            assert point[name] == float(row[name]) == data[name][i], (i, name)
+        for name in ("ball_centre", "contact_a", "contact_b"):
+            assert point[name] == [float(row[f"{name}_{axis}"]) for axis in "xyz"] == data[name][i].tolist(), (i, name)
+
+
+CASES = {"boundary_npz": boundary_npz, "boundary_json": boundary_json, "thickness_points": thickness_points,
+         "boundary_ply": boundary_ply, "boundary_ply_text": boundary_ply_text, "boundary_vtp": boundary_vtp,
          "boundary_vtp_by_vtk": boundary_vtp_by_vtk, "boundary_glb": boundary_glb,
          "boundary_glb_by_assimp": boundary_glb_by_assimp}

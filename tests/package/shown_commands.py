@@ -92,7 +92,7 @@ def outputs_of(words):
         return arguments[2:3]
     files = [b for a, b in zip(arguments, arguments[1:])
              if a in ("-o", "--output", "--html", "--picture", "--report", "--histogram", "--write-srdf", "--rig",
-                      "--boundary", "--thickness-histogram")]
+                      "--boundary", "--thickness-histogram", "--thickness-points")]
     if arguments[:1] in (["distance"], ["clearance"]):
         return files
     if arguments[:1] == ["follow"]:

@@ -55,6 +55,7 @@ export const boundaryTests = {
     const values = await vertexValues(page);
     assert.ok(values, 'no vertex was picked');
     const vertex = wanted[Number(values.vertex)];
+    assert.equal(values.kind, ['none', 'facets', 'crease', 'corner', 'wall'][vertex.thickness_kind]);
     // Three digits are shown.
     const [lower, upper] = numbersIn(values.thickness);
     assert.ok(Math.abs(lower - vertex.thickness_lower) <= 0.005 * vertex.thickness_lower, `${values.thickness}`);

@@ -146,7 +146,8 @@ std::optional<Ball> ball_along(const ThicknessCase& of, const Point& p, const Po
 
 /// A sentence on what is wrong, or nothing.
 std::string fault_of(const ThicknessCase& of, const Point& p, const Thickness& found, std::mt19937_64& random) {
-  const auto& [diameter, ball, angle] = found;
+  const Bounds& diameter = found.diameter;
+  const Ball& ball = found.ball;
   if (!(diameter.lower <= diameter.upper)) return "the ends of the interval are in the wrong order";
   if (diameter.lower != 2 * ball.radius) return "the ball is not that of the lower end";
   Point towards = {0, 0, 1};

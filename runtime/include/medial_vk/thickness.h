@@ -2,6 +2,7 @@
 // (docs/theory.md, "Thickness").
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <stop_token>
@@ -24,14 +25,29 @@ struct ThicknessOptions {
   /// longest side, which is a twentieth of a voxel at resolution 100.
   double delta = 0;
   /// Of an interval, relative to its lower end: the search at a point ends when its interval is no wider, or no wider
-  /// than a quarter of delta.
+  /// than a quarter of delta (a fifth if the diameter is 2 delta or less).
   /// Where the width is less than delta over the thickness, a point takes ten times the distances and more: contacts on
   /// both sides of the wall are then needed in each direction (docs/theory.md, "Thickness").
   double width = 0.02;
   /// In mesh units: balls are not searched for beyond this diameter. 0: the longest side, which no ball inside exceeds.
   double limit = 0;
+  /// Distances for a point, after which an interval of four times the width is enough.
+  std::uint32_t patience = 50;
   std::uint32_t queries = 1000;  ///< Distances that may be computed for a point; then its interval is left wider.
-  unsigned threads = 0;          ///< Of the host, 0: one per core. The result does not depend on it.
+  /// Object angles, in radians, that distinguish kinds (ThicknessKind): a wall has at least the first, and facets have
+  /// less than the second, which is 0 or more and at most the first, up to pi / 2.
+  double wall_angle = 1.2, crease_angle = 0.25;
+  unsigned threads = 0;  ///< Of the host, 0: one per core. The result does not depend on it.
+};
+
+/// What limits the ball at a point, by the outward normals at its contacts (inward ones for gaps).
+enum class ThicknessKind : std::uint8_t {
+  kNone,    ///< No ball was found.
+  kFacets,  ///< Facets of a smooth part, or of a flat one: the object angle is less than the crease angle.
+  kCrease,  ///< Two faces that meet at an edge, or would: no normal is as far as the crease angle from the plane of the
+            ///< two that are farthest apart.
+  kCorner,  ///< Three faces or more, as at the corner of a box or in a cone: some normal is.
+  kWall,    ///< Opposite sides: the object angle is at least the wall angle.
 };
 
 /// At a point p.
@@ -41,9 +57,12 @@ struct Thickness {
   Bounds diameter;
   /// A ball of the lower diameter that comes within delta of p; radius 0: none was found.
   Ball ball;
-  /// Radians: half the greatest angle at its centre between two points of the boundary that the search met within delta
-  /// of the ball, at p among them. Near pi / 2 in a wall, half the turn of the normal at an edge.
+  /// Radians: half the greatest angle between the normals at two contacts: points of the boundary that the search met,
+  /// p among them, no farther from the ball than delta and the width of `diameter`. Near pi / 2 in a wall, half the
+  /// turn of the normal at an edge.
   double object_angle = 0;
+  std::array<Point, 2> contacts = {};  ///< These two; p twice if there are no others.
+  ThicknessKind kind = ThicknessKind::kNone;
 };
 
 /// At each of `points`, usually on the boundary. The radius of a ball is at most the exact distance of its centre from

@@ -13,10 +13,26 @@ constexpr double kInset = 0x1p-20;
 // Smaller balls than this share of delta are not searched for.
 constexpr double kLeastShare = 0x1p-4;
 
-// A search also ends when the radius is known to this share of delta (docs/decisions.md).
-constexpr double kGapShare = 0.125;
+// A search also ends when the radius is known to the first share of delta, or to the last share of itself if that is
+// less, but not less than the second share of delta (docs/decisions.md).
+constexpr double kGapShare = 0.125, kLeastGapShare = 0.1, kUsefulShare = 0.1;
+
+// An interval that is this many times as wide is enough where a narrow one takes too long (docs/decisions.md).
+constexpr double kWidening = 4;
 
 constexpr std::size_t kMostOthers = 8, kMostKept = 24;
+
+Point unit_or_zero(const Point& v) {
+  const double size = length(v);
+  return size > 0 ? (1 / size) * v : Point{0, 0, 0};
+}
+
+/// Of a triangle; zero if it has no meaningful direction.
+Point normal_of(const Mesh& mesh, const Triangle& t) {
+  double shorter = 0;
+  const Point area = double_area(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], shorter);
+  return length(area) > kAreaRounding * shorter ? unit_or_zero(area) : Point{0, 0, 0};
+}
 
 }  // namespace
 
@@ -27,14 +43,17 @@ void BallsNear::start(const Point& p) {
   p_ = p;
   contacts_.clear();
   used_.clear();
-  is_point_.clear();
-  for (const Point& kept : kept_) add({kept - p, dot(kept - p, kept - p)}, true);
+  normals_.clear();
+  for (const BallContact& kept : kept_) add({kept.at - p, dot(kept.at - p, kept.at - p)}, kept.normal);
   others_.clear();
   best_ = {};
   doubtful_ = 0;
   target_ = kLeastShare * delta_;
   queries_ = 0;
-  const double off = std::sqrt(field_.tree.closest(field_.solid.bvh(), p).squared_distance);
+  const BvhHit nearest = field_.tree.closest(field_.solid.bvh(), p);
+  const Mesh& mesh = field_.solid.mesh().mesh;
+  const double off = std::sqrt(nearest.squared_distance);
+  at_p_ = {nearest.point - p, normal_of(mesh, mesh.triangles[nearest.triangle])};
   // Contacts and distances have an error of at most Solid::rounding(), and products with contacts, which are no longer
   // than the diagonal and `off`, one of 4 u times that: docs/theory.md, "Thickness".
   rounding_ = 4 * field_.solid.rounding() + 0x1p-44 * off;
@@ -57,10 +76,10 @@ BallsNear::Probe BallsNear::probe_at(const Point& direction, double distance) {
   const double bound = std::min(std::sqrt(squared), by_p) * (1 + 0x1p-20) + rounding_;
   BvhHit hit = field_.tree.closest(field_.solid.bvh(), p_ + offset, bound);
   if (hit.triangle == BvhHit().triangle) hit = field_.tree.closest(field_.solid.bvh(), p_ + offset);  // by rounding
-  ++queries_;
+  if (++queries_ == field_.options.patience) raise_target(std::max(best_.radius, doubtful_));
   const double radius = std::sqrt(hit.squared_distance) - rounding_;
   const Point at = hit.point - p_;
-  add({at, dot(at, at)}, true);
+  add({at, dot(at, at)}, unit_or_zero(at - offset));
   const bool is_near = distance * kBoundRounding + rounding_ <= radius + delta_;
   if (is_near && radius > std::max(best_.radius, doubtful_)) record(offset, radius);
   return {is_near, dot(direction, at), radius};
@@ -107,10 +126,10 @@ void BallsNear::go_back(const Point& direction, double distance, Probe found) {
   }
 }
 
-void BallsNear::add(const Contact& contact, bool is_point) {
+void BallsNear::add(const Contact& contact, const Point& normal) {
   contacts_.add(contact);
   used_.push_back(false);
-  is_point_.push_back(is_point);
+  normals_.push_back(normal);
 }
 
 /// Keeps a ball that comes within delta of p, on whichever side. On an open mesh the side of a centre may be that of
@@ -129,8 +148,18 @@ void BallsNear::record(const Point& offset, double radius) {
     others_.push_back({offset, radius});
     return;
   }
-  const double gap = std::max(field_.options.width * counted, kGapShare * delta_);
+  const double gap = gap_above(counted);
   if (counted + 0.5 * gap > target_) target_ = (counted + gap) * kBoundRounding;
+}
+
+/// How much larger balls need not be found.
+double BallsNear::gap_above(double radius) const {
+  const double width = (queries_ < field_.options.patience ? 1 : kWidening) * field_.options.width;
+  return std::max(width * radius, std::clamp(kUsefulShare * radius, kLeastGapShare * delta_, kGapShare * delta_));
+}
+
+void BallsNear::raise_target(double radius) {
+  if (radius > 0) target_ = std::max(target_, (radius + gap_above(radius)) * kBoundRounding);
 }
 
 /// The side of all centres in a ball. In a closed mesh, balls that overlap are on one side, as the boundary meets
@@ -150,26 +179,37 @@ SolidSide BallsNear::side_of(const Point& centre, double radius) const {
 void BallsNear::keep_used() {
   kept_.clear();
   for (std::size_t i = contacts_.size(); i-- > 0 && kept_.size() < kMostKept;) {
-    if (used_[i] && is_point_[i]) kept_.push_back(p_ + contacts_.contact(i).at);
+    if (used_[i] && is_point(i)) kept_.push_back({p_ + contacts_.contact(i).at, normals_[i]});
   }
 }
 
-double BallsNear::object_angle() const {
-  if (!(best_.radius > 0)) return 0;
-  std::vector<Point> spokes;
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    if (!is_point_[i]) continue;
-    const Point spoke = contacts_.contact(i).at - best_.centre;
+/// Among points at equal distances from a centre, one that is nearest to a place off it, towards the other side, is the
+/// one whose direction is closest to that side.
+void BallsNear::look_across(const Point& direction) {
+  const Point centre = best_.centre - (0.5 * best_.radius) * direction;
+  const Point at = field_.tree.closest(field_.solid.bvh(), p_ + centre).point - p_;
+  add({at, dot(at, at)}, unit_or_zero(at - centre));
+}
+
+/// A normal belongs to a point where the ball may touch: its plane does not cut the ball by more than a plane through
+/// any point that close does, and by kNormalSlack where the boundary is bent towards the ball.
+void BallsNear::collect_contacts(double beyond, std::vector<BallContact>& found) const {
+  constexpr double kNormalSlack = 0.1;
+  found.clear();
+  const double most = best_.radius + beyond;
+  const double least_cosine = std::cos(std::acos(best_.radius / most) + kNormalSlack);
+  const auto consider = [&](const BallContact& contact) {
+    const Point spoke = contact.at - best_.centre;
     const double distance = length(spoke);
-    if (distance <= best_.radius + delta_) spokes.push_back((1 / distance) * spoke);
+    if (!(distance <= most)) return;
+    if (dot(spoke, contact.normal) >= std::max(least_cosine, 0.0) * distance) found.push_back(contact);
+  };
+  const Point to_p = at_p_.at - best_.centre;
+  const double along = dot(to_p, at_p_.normal);  // triangles of open meshes, and those of gaps, may face the centre
+  consider({at_p_.at, along == 0 ? unit_or_zero(to_p) : (along > 0 ? 1.0 : -1.0) * at_p_.normal});
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    if (is_point(i)) consider({contacts_.contact(i).at, normals_[i]});
   }
-  const double to_p = length(best_.centre);
-  if (to_p > 0) spokes.push_back((-1 / to_p) * best_.centre);
-  double least_cosine = 1;
-  for (std::size_t i = 0; i < spokes.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) least_cosine = std::min(least_cosine, dot(spokes[i], spokes[k]));
-  }
-  return 0.5 * std::acos(std::max(-1.0, least_cosine));
 }
 
 }  // namespace medial_vk

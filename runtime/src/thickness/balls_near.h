@@ -9,6 +9,7 @@
 #include "medial_vk/ball.h"
 #include "medial_vk/thickness.h"
 #include "solid/solid.h"
+#include "thickness/ball_kind.h"
 #include "thickness/contact_lists.h"
 
 namespace medial_vk {
@@ -38,7 +39,7 @@ class BallsNear {
     double radius;  ///< Of that ball.
   };
   Probe probe_at(const Point& direction, double distance);
-  void add_mixture(const Contact& contact) { add(contact, false); }
+  void add_mixture(const Contact& contact) { add(contact, {0, 0, 0}); }
 
   /// The greatest distance of centres that is in question at all.
   double most_reach() const { return limit_ + delta_; }
@@ -71,13 +72,19 @@ class BallsNear {
   bool is_closed_mesh() const { return field_.solid.mesh().report.closed; }
 
   void keep_used();
-  /// Half the greatest angle at the centre of the best ball between two points of the boundary that are within delta.
-  double object_angle() const;
+  /// Meets the point of the boundary that is nearest to the best ball on the side opposite to a direction.
+  void look_across(const Point& direction);
+  /// The points of the boundary, relative to p, that are within `beyond` of the best ball, and the normals there, away
+  /// from its centre.
+  void collect_contacts(double beyond, std::vector<BallContact>& found) const;
 
  private:
   void go_back(const Point& direction, double distance, Probe found);
-  void add(const Contact& contact, bool is_point);
+  void add(const Contact& contact, const Point& normal);
   void record(const Point& offset, double radius);
+  double gap_above(double radius) const;
+  void raise_target(double radius);
+  bool is_point(std::size_t contact) const { return normals_[contact] != Point{0, 0, 0}; }
   SolidSide side_of(const Point& centre, double radius) const;
 
   const ThicknessField& field_;
@@ -88,9 +95,10 @@ class BallsNear {
   double off_ = 0;  // at least the distance of p from the boundary
   ContactLists contacts_;
   std::vector<bool> used_;      // by contact: it has shown something
-  std::vector<bool> is_point_;  // by contact: a point of the boundary, and no mixture
+  std::vector<Point> normals_;  // by contact: away from the centre that it was met from; zero: a mixture
   std::vector<Ball> others_;
-  std::vector<Point> kept_;  // contacts that were of use at the last point
+  std::vector<BallContact> kept_;  // contacts that were of use at the last point, with coordinates of the mesh
+  BallContact at_p_;               // the point of the boundary nearest to p, and the normal of its triangle
   Ball best_;
   double target_ = 0;
   double doubtful_ = 0;  // the radius of a ball on an unknown side, which counts for the upper bound alone

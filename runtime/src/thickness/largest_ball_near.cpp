@@ -36,8 +36,29 @@ Thickness LargestBallNear::find(const Point& p, const Point& inward) {
   lean_ = distance > 0 ? (1 / distance) * best.centre - inward : Point{0, 0, 0};
   out.diameter = {2 * best.radius, 2 * std::max(best.radius, std::min(upper, balls_.limit()))};
   out.ball = {p + best.centre, best.radius};
-  out.object_angle = balls_.object_angle();
+  describe(p, out);
   return out;
+}
+
+/// The largest ball has a diameter of at most the upper end: where it is between parallel faces, one of the lower end
+/// that touches one of them leaves no more than the width to the other. In a round limb three contacts at equal angles
+/// prove the upper end; opposite ones are looked up across from the two that are farthest apart.
+void LargestBallNear::describe(const Point& p, Thickness& out) {
+  out.contacts = {p, p};
+  if (!(out.ball.radius > 0)) return;
+  const double beyond = balls_.delta() + (out.diameter.upper - out.diameter.lower);
+  const auto kind = [&] {
+    balls_.collect_contacts(beyond, touched_);
+    return kind_of_ball(touched_, options_.wall_angle, options_.crease_angle);
+  };
+  BallKind found = kind();
+  if (found.kind == ThicknessKind::kCrease || found.kind == ThicknessKind::kCorner) {
+    for (const BallContact& contact : found.widest) balls_.look_across(contact.normal);
+    found = kind();
+  }
+  out.object_angle = found.object_angle;
+  if (!touched_.empty()) out.contacts = {p + found.widest[0].at, p + found.widest[1].at};
+  out.kind = found.kind;
 }
 
 }  // namespace medial_vk

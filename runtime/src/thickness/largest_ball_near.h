@@ -10,7 +10,8 @@ namespace medial_vk {
 /// use at one are tried first at the next, and the ball is sought in a direction that leans as the last one did.
 class LargestBallNear {
  public:
-  explicit LargestBallNear(const ThicknessField& field) : balls_(field), facets_(balls_), cells_(balls_) {}
+  explicit LargestBallNear(const ThicknessField& field)
+      : options_(field.options), balls_(field), facets_(balls_), cells_(balls_) {}
   LargestBallNear(const LargestBallNear&) = delete;
   LargestBallNear& operator=(const LargestBallNear&) = delete;
 
@@ -18,9 +19,13 @@ class LargestBallNear {
   Thickness find(const Point& p, const Point& inward);
 
  private:
+  void describe(const Point& p, Thickness& out);
+
+  const ThicknessOptions& options_;
   BallsNear balls_;
   FacetSearch facets_;
   CellSearch cells_;
+  std::vector<BallContact> touched_;
   Point lean_ = {0, 0, 0};  // the direction of the last ball less the likely one
 };
 

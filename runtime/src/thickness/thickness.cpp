@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/host_memory.h"
 #include "base/loop_watch.h"
@@ -23,6 +24,10 @@ Status check(std::span<const Point> points, const ThicknessOptions& options) {
   if (!is_length(options.limit)) return usage("`limit` must be a length, or 0");
   if (!(options.width >= 1e-6 && options.width <= 1)) return usage("`width` must be from 1e-6 to 1");
   if (options.queries == 0) return usage("`queries` must be positive");
+  if (!(options.wall_angle <= std::numbers::pi / 2)) return usage("`wall_angle` must be at most pi / 2");
+  if (!(options.crease_angle >= 0 && options.crease_angle <= options.wall_angle)) {
+    return usage("`crease_angle` must be from 0 to `wall_angle`");
+  }
   constexpr std::size_t kMostPoints = std::size_t{1} << 31;
   if (points.size() > kMostPoints) return usage("`points` must be at most 2^31 points");
   constexpr double kMost = 1e18;  // squares of distances, and their products, are finite

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -34,11 +35,16 @@ class BoundaryMeasurer {
     ThicknessOptions how;
     how.delta = options_.thickness_delta * mesh_.longest_side();
     how.width = options_.thickness_width;
+    how.wall_angle = options_.wall_angle;
     how.threads = options_.threads;
-    const std::vector<Point> points = sample_surface(mesh_.prepared().mesh, kPointsByArea);
+    std::vector<Point> points = sample_surface(mesh_.prepared().mesh, kPointsByArea);
     Result<std::vector<Thickness>> by_area = measure_thickness(mesh_, points, how, shown("thickness"));
     if (!by_area) return by_area.error();
-    made_.record.thickness = summarise_thickness(points, by_area.value(), how.delta, how.width);
+    made_.record.thickness = summarise_thickness(points, by_area.value(), how);
+    if (!options_.thickness_points.empty()) {
+      add_thickness(made_.of_samples, by_area.value());
+      made_.samples = std::move(points);
+    }
     if (at_vertices) {
       Result<std::vector<Thickness>> of_vertices =
           measure_thickness(mesh_, made_.surface(mesh_).vertices, how, shown("vertices"));
@@ -130,9 +136,17 @@ Status encode_boundary_files(const IndexedMesh& mesh, const MeasuredBoundary& me
     files.push_back(
         {options.thickness_histogram, is_drawing ? encode_thickness_svg(thickness) : encode_thickness_csv(thickness)});
   }
+  const double delta =
+      measured.record.thickness ? measured.record.thickness->delta : std::numeric_limits<double>::quiet_NaN();
+  if (!options.thickness_points.empty()) {
+    Result<std::string> bytes =
+        encode_point_table(options.thickness_points, {measured.samples, {}, measured.of_samples, delta});
+    if (!bytes) return bytes.error();
+    files.push_back({options.thickness_points, std::move(bytes).value()});
+  }
   if (options.boundary.empty()) return {};
   Result<std::string> bytes = encode_boundary(options.boundary, measured.surface(mesh), measured.fields,
-                                              {options.ascii, boundary_colour_of(options), mesh.longest_side()});
+                                              {options.ascii, boundary_colour_of(options), mesh.longest_side(), delta});
   if (!bytes) return bytes.error();
   files.push_back({options.boundary, std::move(bytes).value()});
   return {};

@@ -18,6 +18,8 @@ namespace medial_vk::cli {
 struct MeasuredBoundary {
   std::optional<Mesh> refined;  ///< Of --boundary-edge.
   BoundaryFields fields;        ///< At the vertices of surface().
+  std::vector<Point> samples;   ///< Of --thickness-points: they stand for equal parts of the area.
+  BoundaryFields of_samples;    ///< Thickness there.
   BoundaryRecord record;
 
   const Mesh& surface(const IndexedMesh& mesh) const { return refined ? *refined : mesh.prepared().mesh; }
@@ -29,7 +31,7 @@ Result<MeasuredBoundary> measure_boundary(const IndexedMesh& mesh, std::span<con
                                           double voxel_size, const Options& options, Progress& progress,
                                           std::vector<StageTime>& times);
 
-/// Appends --boundary and --thickness-histogram. Errors: kCannotWrite (too large for its format).
+/// Appends --boundary, --thickness-points and --thickness-histogram. Errors: kCannotWrite (too large for its format).
 Status encode_boundary_files(const IndexedMesh& mesh, const MeasuredBoundary& measured, const Options& options,
                              std::vector<OutputFile>& files);
 

@@ -100,7 +100,11 @@ std::string describe_thickness(const ThicknessRecord& record) {
                         record.least->upper, at[0], at[1], at[2]);
   }
   const double points = static_cast<double>(std::max<std::size_t>(record.intervals.size(), 1));
-  return text + fmt::format("; wider than {:g} % at {:.3g} % of the area; delta {:.3g}", 100 * kWideInterval,
+  const auto percent = [&](ThicknessKind kind) { return 100 * record.share(kind); };
+  text += fmt::format("; walls {:.3g} %, creases {:.3g} %, corners {:.3g} %, facets {:.3g} % of the area",
+                      percent(ThicknessKind::kWall), percent(ThicknessKind::kCrease), percent(ThicknessKind::kCorner),
+                      percent(ThicknessKind::kFacets));
+  return text + fmt::format("; wider than {:g} % at {:.3g} %; delta {:.3g}", 100 * kWideInterval,
                             100 * static_cast<double>(record.wide) / points, record.delta);
 }
 

@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::size_t kPointsForPlaces = 10'000, kMostPlaces = 20;
 
-// Of what is demanded. Points of the boundary this close to a ball of a hundred times the radius count as contacts, so
-// that object angles are too large by acos(100 / 101) = 0.14 radians at most.
+// Of what is demanded. Points of the boundary this close to a ball of a hundred times the radius count as contacts: in
+// directions from its centre, they are within acos(100 / 101) = 0.14 radians of where a plane may touch it.
 constexpr double kDeltaShare = 0.005;
 
 // Of what is demanded: the search ends when this share is left, and smaller walls are looked for below the same share.
@@ -51,6 +51,7 @@ class PlaceSearch {
     how_.delta = std::min(options.thickness_delta * mesh.longest_side(), kDeltaShare * record.demanded);
     how_.limit = 2 * record.demanded;
     how_.threads = options.threads;
+    how_.patience = how_.queries;
   }
 
   /// Where points of equal areas are proved to be too thin, and the place of the thinnest ball if none of them is.
@@ -80,9 +81,9 @@ class PlaceSearch {
     std::vector<Point> open;
     std::vector<std::size_t> numbers;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const auto& [diameter, ball, object_angle] = at_points[i];
+      const Bounds& diameter = at_points[i].diameter;
       const bool is_thick = diameter.lower >= record_.demanded * (1 - kThinShare);
-      const bool is_in_wall = diameter.lower >= least_of_walls() && object_angle >= record_.object_angle;
+      const bool is_in_wall = diameter.lower >= least_of_walls() && at_points[i].object_angle >= record_.object_angle;
       if (is_thick || (diameter.upper < record_.demanded && is_in_wall)) continue;
       open.push_back(points[i]);
       numbers.push_back(i);

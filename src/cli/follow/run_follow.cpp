@@ -201,6 +201,12 @@ class FollowRun {
     return {};
   }
 
+  /// Of the outputs, the summary, tables and arrays alone have the volume by which balls reach out.
+  bool shows_outside() const {
+    const auto is_npz = [](const std::string& file) { return file_extension(file) == ".npz"; };
+    return !options_.quiet || writes_table(options_) || std::ranges::any_of(options_.outputs, is_npz);
+  }
+
   /// The balls as they are now, and what is measured of them. Neither measurements nor the reference can be stopped
   /// half-way; nothing is lost if the process ends.
   Status add_frame(const std::string& name, double time, const std::vector<Point>& vertices, bool keeps_vertices) {
@@ -220,7 +226,9 @@ class FollowRun {
     if (writes_table(options_)) {
       if (Status status = follower_->measure_distances(vertices, *mesh_, frame); !status) return status;
     }
-    if (Status status = follower_->estimate_outside(vertices, *mesh_, frame); !status) return status;
+    if (shows_outside()) {
+      if (Status status = follower_->estimate_outside(vertices, *mesh_, frame); !status) return status;
+    }
     if (options_.check) check(vertices, frame);
     if (keeps_vertices && (!options_.html.empty() || !options_.picture.empty())) {
       for (const Point& p : vertices) {

@@ -75,22 +75,26 @@ What is measured on the boundary, for summary, report, page and these files:
       --thickness       how thick the solid is, by area, as intervals
       --curvature       principal curvatures from the medial points; takes about
                         a millisecond of a core for each
-      --boundary FILE   the mesh as .ply, .glb or .vtp (ParaView) with what is
-                        measured at its vertices: both, unless --thickness or
-                        --curvature names one; "-": PLY on standard output
+      --boundary FILE   the mesh as .ply, .glb, .vtp (ParaView), .npz or .json
+                        with what is measured at its vertices: both, unless
+                        --thickness or --curvature names one; "-": PLY on
+                        standard output
       --boundary-edge E  with edges cut until none is longer than E times the
                         longest side, 0.001 to 1 (default: as they are), so that
                         large triangles have values inside; curvature takes a
                         time that grows with the square of their number
       --thickness-histogram FILE  .svg or .csv: thickness by area; "-": .csv on
                         standard output
+      --thickness-points FILE  .npz, .json or .csv: the points by area, each with
+                        interval, kind (wall, crease, corner, facets), ball and
+                        contacts; "-": .csv on standard output
       --thickness-delta D  balls count at a point if they come within D times
                         the longest side, below 0.1 (default 0.0005)
       --thickness-width W  the search for a point ends when its interval is no
                         wider than W times its lower end, 1e-6 to 1 (default
-                        0.02)
+                        0.02), or four times that after 50 distances
       --least-wall      the thinnest wall of a closed mesh, proved to a
-                        hundredth, and its place
+                        hundredth unless cells of space run out, and its place
       --least-gap       the same for gaps outside, up to a quarter of the
                         longest side
       --min-wall T      fail with exit code 8 and a list of places if a wall is

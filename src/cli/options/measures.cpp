@@ -14,7 +14,8 @@ MeasuresOfBoundary measures_of(const Options& options) {
   const bool by_thickness = is_coloured && boundary_colour_of(options) == BoundaryColour::kThickness;
   const bool by_curvature = is_coloured && boundary_colour_of(options) != BoundaryColour::kThickness;
   MeasuresOfBoundary out;
-  out.thickness = options.thickness || !options.thickness_histogram.empty() || by_thickness || (in_file && !names_one);
+  const bool in_table = !options.thickness_histogram.empty() || !options.thickness_points.empty();
+  out.thickness = options.thickness || in_table || by_thickness || (in_file && !names_one);
   out.curvature = options.curvature || options.strokes || by_curvature || (in_file && !names_one);
   const bool is_for_vertices = options.thickness || (in_file && !names_one);
   out.thickness_at_vertices = by_thickness || (is_for_vertices && (in_file || !options.html.empty()));

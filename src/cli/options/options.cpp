@@ -19,6 +19,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// What is measured on the boundary.
+void declare_boundary(Declarations& add, Options& options) {
+  add.text("--boundary", "file", options.boundary);
+  add.real("--boundary-edge", {0.001, 1}, " of the longest side", options.boundary_edge);
+  add.text("--thickness-histogram", "file", options.thickness_histogram);
+  add.text("--thickness-points", "file", options.thickness_points);
+  add.flag("--thickness", options.thickness);
+  add.real("--thickness-delta", {0, 0.1, false}, " of the longest side", options.thickness_delta);
+  add.real("--thickness-width", {1e-6, 1}, " of the lower end", options.thickness_width);
+  add.flag("--curvature", options.curvature);
+  add.flag("--least-wall", options.least_wall);
+  add.flag("--least-gap", options.least_gap);
+  add.real("--min-wall", {0, 1e18, false}, " in the units of the mesh", options.min_wall);
+  add.real("--min-gap", {0, 1e18, false}, " in the units of the mesh", options.min_gap);
+  add.real("--wall-angle", {std::numbers::pi / 4, std::numbers::pi / 2, false}, " radians", options.wall_angle);
+}
+
 void declare(CLI::App& app, Options& options) {
   ExtractionOptions& extraction = options.extraction;
   Declarations add(app);
@@ -54,18 +71,7 @@ void declare(CLI::App& app, Options& options) {
   add.text("--medial-mesh", "file", options.medial_mesh);
   add.text("--sheet-curve", "file", options.sheet_curve);
   add.text("--ball-volumes", "file", options.ball_volumes);
-  add.text("--boundary", "file", options.boundary);
-  add.real("--boundary-edge", {0.001, 1}, " of the longest side", options.boundary_edge);
-  add.text("--thickness-histogram", "file", options.thickness_histogram);
-  add.flag("--thickness", options.thickness);
-  add.real("--thickness-delta", {0, 0.1, false}, " of the longest side", options.thickness_delta);
-  add.real("--thickness-width", {1e-6, 1}, " of the lower end", options.thickness_width);
-  add.flag("--curvature", options.curvature);
-  add.flag("--least-wall", options.least_wall);
-  add.flag("--least-gap", options.least_gap);
-  add.real("--min-wall", {0, 1e18, false}, " in the units of the mesh", options.min_wall);
-  add.real("--min-gap", {0, 1e18, false}, " in the units of the mesh", options.min_gap);
-  add.real("--wall-angle", {std::numbers::pi / 4, std::numbers::pi / 2, false}, " radians", options.wall_angle);
+  declare_boundary(add, options);
 
   add.whole("--resolution", 1, 4096, " voxels", extraction.resolution);
   add.real("--object-angle", {0, std::numbers::pi / 2, false}, " radians", extraction.object_angle);
@@ -150,9 +156,16 @@ Status take_colour(Options& options) {
 
 /// Options about what is measured on the boundary.
 Status check_boundary_options(const Options& options) {
-  if (!may_end_in(options.boundary, ".ply") && !may_end_in(options.boundary, ".glb") &&
-      !may_end_in(options.boundary, ".vtp")) {
-    return usage_error(fmt::format("--boundary: '{}' ends in none of .ply, .glb and .vtp", options.boundary));
+  const auto ends_in_one_of = [](const std::string& file, std::initializer_list<const char*> extensions) {
+    return std::ranges::any_of(extensions, [&](const char* extension) { return may_end_in(file, extension); });
+  };
+  if (!ends_in_one_of(options.boundary, {".ply", ".glb", ".vtp", ".npz", ".json"})) {
+    return usage_error(
+        fmt::format("--boundary: '{}' ends in none of .ply, .glb, .vtp, .npz and .json", options.boundary));
+  }
+  if (!ends_in_one_of(options.thickness_points, {".npz", ".json", ".csv"})) {
+    return usage_error(
+        fmt::format("--thickness-points: '{}' ends in none of .npz, .json and .csv", options.thickness_points));
   }
   if (!may_end_in(options.thickness_histogram, ".svg") && !may_end_in(options.thickness_histogram, ".csv")) {
     return usage_error(
@@ -163,9 +176,10 @@ Status check_boundary_options(const Options& options) {
         "--boundary-edge is about vertices of the boundary: use it with --boundary, --show boundary or --curvature");
   }
   const Options usual;
-  if (options.wall_angle != usual.wall_angle && !options.needs_walls()) {
+  if (options.wall_angle != usual.wall_angle && !options.needs_walls() && !measures_of(options).thickness) {
     return usage_error(
-        "--wall-angle is about walls and gaps: use it with --least-wall, --least-gap, --min-wall or --min-gap");
+        "--wall-angle is about walls and gaps: use it with --thickness, --least-wall, --least-gap, --min-wall or "
+        "--min-gap");
   }
   const std::pair<const char*, bool> given[] = {
       {"--thickness-delta", options.thickness_delta != usual.thickness_delta},
@@ -173,7 +187,8 @@ Status check_boundary_options(const Options& options) {
   for (const auto& [name, is_given] : given) {
     if (is_given && !measures_of(options).thickness) {
       return usage_error(fmt::format(
-          "{} is about thickness: use it with --thickness, --thickness-histogram, --boundary or --show boundary",
+          "{} is about thickness: use it with --thickness, --thickness-points, --thickness-histogram, --boundary or "
+          "--show boundary",
           name));
     }
   }
@@ -294,14 +309,15 @@ std::vector<NamedOutput> outputs_of(const Options& options) {
           {"--sheet-curve", &options.sheet_curve},
           {"--ball-volumes", &options.ball_volumes},
           {"--boundary", &options.boundary},
-          {"--thickness-histogram", &options.thickness_histogram}};
+          {"--thickness-histogram", &options.thickness_histogram},
+          {"--thickness-points", &options.thickness_points}};
 }
 
 Options options_of_part(const Options& options, const std::string& name) {
   Options of_part = options;
   for (std::string* file :
        {&of_part.output, &of_part.report, &of_part.picture, &of_part.html, &of_part.medial_mesh, &of_part.sheet_curve,
-        &of_part.ball_volumes, &of_part.boundary, &of_part.thickness_histogram}) {
+        &of_part.ball_volumes, &of_part.boundary, &of_part.thickness_histogram, &of_part.thickness_points}) {
     if (!file->empty()) *file = with_part(*file, name);
   }
   return of_part;

@@ -56,6 +56,7 @@ struct Options {
   std::string ball_volumes;         ///< As `report`.
   std::string boundary;             ///< As `report`.
   std::string thickness_histogram;  ///< As `report`.
+  std::string thickness_points;     ///< As `report`.
 
   bool least_wall = false;
   bool least_gap = false;

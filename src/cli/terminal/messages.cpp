@@ -40,6 +40,7 @@ constexpr ParameterWords kParameterWords[] = {
     {"count_per_link", {}, {}, "--count-per-link", {}, {}, "--balls"},
     of_follow("cover", "the file"),
     {"crease", "--sheet-crease", {}, {}},
+    library_only("crease_angle"),
     same("deep_angle", "the deep angle"),
     library_only("delta"),
     library_only("depths"),
@@ -107,6 +108,7 @@ constexpr ParameterWords kParameterWords[] = {
     {"volume", {}, {}, "volume"},
     library_only("volume_tolerance"),
     library_only("volumes"),
+    {"wall_angle", "--wall-angle", {}, {}},
     {"width", "--sheet-width", {}, {}},
 };
 

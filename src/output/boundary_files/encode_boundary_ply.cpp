@@ -86,6 +86,9 @@ Result<std::string> encode_boundary(const std::string& path, const Mesh& mesh, c
   const std::string extension = file_extension(path);
   if (extension == ".glb") return encode_boundary_glb(mesh, fields, options.colour, options.longest_side);
   if (extension == ".vtp") return encode_boundary_vtp(mesh, fields);
+  if (extension == ".npz" || extension == ".json") {
+    return encode_point_table(path, {mesh.vertices, mesh.triangles, fields, options.delta});
+  }
   return encode_boundary_ply(mesh, fields, options.ascii);
 }
 

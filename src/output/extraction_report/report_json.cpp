@@ -250,12 +250,16 @@ Json thickness_json(const std::optional<ThicknessRecord>& record) {
     least = {{"lower", record->least->lower}, {"upper", record->least->upper}, {"at", record->least_at}};
   }
   const double points = static_cast<double>(std::max<std::size_t>(record->intervals.size(), 1));
+  Json kinds = Json::object();
+  for (const ThicknessKind kind : kThicknessKinds) kinds[std::string(kind_name(kind))] = record->share(kind);
   return {{"delta", record->delta},
           {"width", record->width},
           {"points", record->intervals.size()},
           {"median", {{"lower", record->median.lower}, {"upper", record->median.upper}}},
           {"least_in_a_wall", least},
-          {"wall_angle", kWallAngle},
+          {"kinds", kinds},
+          {"wall_angle", record->wall_angle},
+          {"crease_angle", record->crease_angle},
           {"wall_deltas", kWallDeltas},
           {"greatest", record->greatest},
           {"wide_interval", kWideInterval},

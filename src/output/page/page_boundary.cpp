@@ -53,7 +53,7 @@ BoundaryJson colour_json(const NamedColour& named, const BoundaryColours& colour
 BoundaryJson boundary_json(const BoundaryFields& fields, double longest_side) {
   if (fields.of_vertices.empty()) return nullptr;
   BoundaryJson colours = BoundaryJson::array(), names = BoundaryJson::array(), states = BoundaryJson::array(),
-               directions = BoundaryJson::array();
+               kinds = BoundaryJson::array(), directions = BoundaryJson::array();
   for (const NamedColour& named : kNamedColours) {
     if (!can_colour(fields, named.colour)) continue;
     colours.push_back(colour_json(named, colour_boundary(fields, named.colour, longest_side)));
@@ -63,7 +63,8 @@ BoundaryJson boundary_json(const BoundaryFields& fields, double longest_side) {
     if (is_direction(field)) directions.push_back(field.name);
   }
   for (std::size_t i = 0; i < kCurvatureStates; ++i) states.push_back(state_name(static_cast<CurvatureState>(i)));
-  return {{"colours", colours}, {"fields", names}, {"states", states}, {"directions", directions}};
+  for (const ThicknessKind kind : kThicknessKinds) kinds.push_back(kind_name(kind));
+  return {{"colours", colours}, {"fields", names}, {"states", states}, {"kinds", kinds}, {"directions", directions}};
 }
 
 void write_boundary(std::string& page, const BoundaryFields& fields, double longest_side) {

@@ -35,11 +35,12 @@ void require_in_range(const cli::Options& options) {
           "--size keeps its range");
   if (options.action != cli::Action::kExtract) return;
   require(!options.mesh.empty(), "there is a mesh");
-  require(options.needs_walls() || options.wall_angle == 1.2, "--wall-angle is about walls and gaps");
   require(!options.strokes || look.show == PictureShow::kBoundary, "strokes are on the boundary");
   const cli::MeasuresOfBoundary needed = cli::measures_of(options);
   require(options.boundary.empty() || needed.at_vertices(), "a boundary has something at its vertices");
   require(options.thickness_histogram.empty() || needed.thickness, "a histogram has thickness");
+  require(options.thickness_points.empty() || needed.thickness, "a table of points has thickness");
+  require(options.needs_walls() || needed.thickness || options.wall_angle == 1.2, "--wall-angle is about walls");
   require(!options.output.empty(), "there is an output");
   require(options.output == "-" || options.output != options.mesh, "the mesh is not overwritten");
   require(options.output != options.report && options.output != options.picture, "results do not replace each other");

@@ -19,7 +19,13 @@ namespace {
 using testing::ElementsAre;
 
 Thickness wall(double lower, double upper, double object_angle = 1.5) {
-  return {{lower, upper}, {{0, 0, 0}, lower / 2}, object_angle};
+  Thickness thickness;
+  thickness.diameter = {lower, upper};
+  thickness.ball = {{lower, 0, 0}, lower / 2};
+  thickness.object_angle = object_angle;
+  thickness.contacts = {Point{0, lower, 0}, Point{0, 0, upper}};
+  thickness.kind = object_angle >= 1.2 ? ThicknessKind::kWall : ThicknessKind::kCrease;
+  return thickness;
 }
 
 double length(const Mesh& mesh, std::uint32_t a, std::uint32_t b) {
@@ -47,7 +53,21 @@ TEST(BoundaryFields, HaveNumbersByName) {
   EXPECT_THAT(fields.find(field_names::kThicknessLower)->values, ElementsAre(1, 3));
   EXPECT_THAT(fields.find(field_names::kThicknessUpper)->values, ElementsAre(2, 4));
   EXPECT_THAT(fields.find(field_names::kObjectAngle)->values, ElementsAre(1.5, 0.5));
+  EXPECT_THAT(fields.find(field_names::kThicknessKind)->values, ElementsAre(4, 2));
+  EXPECT_TRUE(fields.find(field_names::kThicknessKind)->is_whole);
   EXPECT_EQ(fields.find(field_names::kKappa1), nullptr);
+  ASSERT_EQ(fields.of_balls.size(), 4u);
+  EXPECT_EQ(fields.of_balls[0].name, field_names::kBallCentre);
+  EXPECT_THAT(fields.of_balls[0].values, ElementsAre(1, 0, 0, 3, 0, 0));
+  EXPECT_THAT(fields.of_balls[1].values, ElementsAre(0.5, 1.5));
+  EXPECT_THAT(fields.of_balls[2].values, ElementsAre(0, 1, 0, 0, 3, 0));
+  EXPECT_THAT(fields.of_balls[3].values, ElementsAre(0, 0, 2, 0, 0, 4));
+}
+
+TEST(BoundaryFields, HaveWordsForKinds) {
+  std::vector<std::string_view> names;
+  for (const ThicknessKind kind : kThicknessKinds) names.push_back(kind_name(kind));
+  EXPECT_THAT(names, ElementsAre("none", "facets", "crease", "corner", "wall"));
 }
 
 TEST(BoundaryFields, TakeTheSheetOfTheBallThatGivesTheCurvature) {
@@ -74,8 +94,11 @@ TEST(ThicknessSummary, FindsTheLeastWallAndTheWideIntervals) {
   const std::vector<Point> points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}};
   Thickness none = wall(0, 5);
   none.ball.radius = 0;
-  const ThicknessRecord record =
-      summarise_thickness(points, {wall(3, 3.1), wall(1, 1.05, 1.37), wall(2, 2.3), none, wall(4, 4.01)}, 0.1, 0.01);
+  none.kind = ThicknessKind::kNone;
+  ThicknessOptions how;
+  how.delta = 0.1;
+  const std::vector<Thickness> found = {wall(3, 3.1), wall(1, 1.05, 1.1), wall(2, 2.3), none, wall(4, 4.01)};
+  const ThicknessRecord record = summarise_thickness(points, found, how);
   ASSERT_TRUE(record.least.has_value());
   EXPECT_EQ(record.least->lower, 2);
   EXPECT_EQ(record.least->upper, 2.3);
@@ -84,9 +107,15 @@ TEST(ThicknessSummary, FindsTheLeastWallAndTheWideIntervals) {
   EXPECT_EQ(record.median.upper, 3.1);
   EXPECT_EQ(record.wide, 2u);
   EXPECT_EQ(record.greatest, 5);
-  // Of balls that are small for delta, the angle says little.
-  EXPECT_FALSE(summarise_thickness(points, {wall(1, 1.05, 1.5)}, 0.11, 0.01).least.has_value());
-  EXPECT_FALSE(summarise_thickness({}, {}, 0.1, 0.01).least.has_value());
+  EXPECT_EQ(record.share(ThicknessKind::kWall), 0.6);
+  EXPECT_EQ(record.share(ThicknessKind::kCrease), 0.2);
+  EXPECT_EQ(record.share(ThicknessKind::kNone), 0.2);
+  EXPECT_EQ(record.share(ThicknessKind::kCorner), 0);
+  EXPECT_EQ(record.delta, 0.1);
+  EXPECT_EQ(record.wall_angle, how.wall_angle);
+  how.delta = 0.11;  // of the wall, the ball is less than ten
+  EXPECT_FALSE(summarise_thickness(points, std::vector<Thickness>{wall(1, 1.05)}, how).least.has_value());
+  EXPECT_FALSE(summarise_thickness({}, {}, how).least.has_value());
 }
 
 /// Of two triangles in a plane, the vertices of the larger one alone are known.

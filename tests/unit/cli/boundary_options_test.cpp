@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/options/measures.h"
+#include "medial_vk/thickness.h"
 #include "unit/cli/parse_results.h"
 
 namespace medial_vk::cli {
@@ -36,6 +37,7 @@ TEST(BoundaryOptions, OnlyWhatAnOutputNeedsIsMeasured) {
   EXPECT_EQ(measures({"--html", "a.html", "--report", "r.json", "--picture", "p.png"}), "");
   EXPECT_EQ(measures({"--thickness"}), "t");
   EXPECT_EQ(measures({"--thickness-histogram", "h.svg"}), "t");
+  EXPECT_EQ(measures({"--thickness-points", "p.csv"}), "t");
   EXPECT_EQ(measures({"--curvature"}), "c");
   EXPECT_EQ(measures({"--boundary", "b.ply"}), "tvc");
   EXPECT_EQ(measures({"--boundary", "b.ply", "--thickness"}), "tv");
@@ -58,6 +60,15 @@ TEST(BoundaryOptions, TheColourIsThatOfWhatIsMeasured) {
   EXPECT_EQ(boundary_colour_of(both), BoundaryColour::kKappa2);
 }
 
+TEST(BoundaryOptions, HaveTheDefaultsOfTheLibrary) {
+  const ThicknessOptions usual;
+  EXPECT_EQ(Options().thickness_width, usual.width);
+  EXPECT_EQ(Options().wall_angle, usual.wall_angle);
+  EXPECT_EQ(usual.width, 0.02);
+  EXPECT_EQ(usual.patience, 50u);
+  EXPECT_EQ(usual.queries, 1000u);
+}
+
 TEST(BoundaryOptions, HaveRanges) {
   const Options options = run_with({"--thickness", "--thickness-delta", "0.002", "--thickness-width", "0.1",
                                     "--curvature", "--boundary-edge", "0.05"});
@@ -74,8 +85,10 @@ TEST(BoundaryOptions, HaveRanges) {
 }
 
 TEST(BoundaryOptions, WithoutTheirSubjectAreUsageErrors) {
-  EXPECT_THAT(refusal_of({"--boundary", "b.obj"}), HasSubstr("'b.obj' ends in none of .ply, .glb and .vtp"));
+  EXPECT_THAT(refusal_of({"--boundary", "b.obj"}),
+              HasSubstr("'b.obj' ends in none of .ply, .glb, .vtp, .npz and .json"));
   EXPECT_THAT(refusal_of({"--thickness-histogram", "h.png"}), HasSubstr("ends in neither .svg nor .csv"));
+  EXPECT_THAT(refusal_of({"--thickness-points", "p.ply"}), HasSubstr("ends in none of .npz, .json and .csv"));
   EXPECT_THAT(refusal_of({"--thickness-delta", "0.01"}), HasSubstr("--thickness-delta is about thickness"));
   EXPECT_THAT(refusal_of({"--curvature", "--thickness-width", "0.1"}),
               HasSubstr("--thickness-width is about thickness"));
@@ -85,7 +98,8 @@ TEST(BoundaryOptions, WithoutTheirSubjectAreUsageErrors) {
   EXPECT_THAT(message_of(parse_options(no_command), no_command),
               HasSubstr("; thickness is an option: medial-vk plate.obj --thickness"));
   EXPECT_THAT(refusal_of({"b.obj"}), Not(HasSubstr("is an option")));
-  EXPECT_THAT(refusal_of({"--wall-angle", "1.3"}), HasSubstr("use it with --least-wall"));
+  EXPECT_THAT(refusal_of({"--wall-angle", "1.3"}), HasSubstr("use it with --thickness, --least-wall"));
+  EXPECT_EQ(run_with({"--thickness", "--wall-angle", "1.3"}).wall_angle, 1.3);
   for (const char* measure : {"--least-wall", "--least-gap"}) {
     EXPECT_TRUE(run_with({measure, "--wall-angle", "1.3"}).needs_walls());
   }

@@ -23,9 +23,26 @@ TEST(EachOptions, TheNameComesBeforeTheExtension) {
 }
 
 TEST(EachOptions, EveryOutputGetsTheName) {
-  const Result<Options> parsed = parse_options(
-      {"m.glb", "--each", "--report", "r", "--picture", "p.png", "--html", "h.html", "--medial-mesh", "m.ma",
-       "--sheet-curve", "c.svg", "--ball-volumes", "v.csv", "--boundary", "b.vtp", "--thickness-histogram", "t.svg"});
+  const Result<Options> parsed = parse_options({"m.glb",
+                                                "--each",
+                                                "--report",
+                                                "r",
+                                                "--picture",
+                                                "p.png",
+                                                "--html",
+                                                "h.html",
+                                                "--medial-mesh",
+                                                "m.ma",
+                                                "--sheet-curve",
+                                                "c.svg",
+                                                "--ball-volumes",
+                                                "v.csv",
+                                                "--boundary",
+                                                "b.vtp",
+                                                "--thickness-histogram",
+                                                "t.svg",
+                                                "--thickness-points",
+                                                "p.csv"});
   ASSERT_TRUE(parsed.ok()) << parsed.error().message;
   EXPECT_TRUE(parsed.value().each);
   const Options part = options_of_part(parsed.value(), "x");
@@ -38,7 +55,8 @@ TEST(EachOptions, EveryOutputGetsTheName) {
   EXPECT_EQ(part.ball_volumes, "v.x.csv");
   EXPECT_EQ(part.boundary, "b.x.vtp");
   EXPECT_EQ(part.thickness_histogram, "t.x.svg");
-  EXPECT_EQ(outputs_of(part).size(), 9u);
+  EXPECT_EQ(part.thickness_points, "p.x.csv");
+  EXPECT_EQ(outputs_of(part).size(), 10u);
   for (const NamedOutput& output : outputs_of(part)) EXPECT_THAT(*output.file, HasSubstr(".x")) << output.option;
   // What was not requested stays so.
   EXPECT_EQ(options_of_part(parse_options({"m.glb", "--each"}).value(), "x").report, "");
@@ -58,7 +76,7 @@ TEST(EachOptions, EveryOutputOfSpheresGetsTheName) {
 
 TEST(EachOptions, StandardOutputIsForOneResult) {
   for (const char* option : {"--output", "--report", "--picture", "--html", "--medial-mesh", "--sheet-curve",
-                             "--ball-volumes", "--boundary", "--thickness-histogram"}) {
+                             "--ball-volumes", "--boundary", "--thickness-histogram", "--thickness-points"}) {
     const Result<Options> parsed = parse_options({"m.glb", "--each", option, "-"});
     ASSERT_FALSE(parsed.ok()) << option;
     EXPECT_EQ(parsed.error().code, ErrorCode::kUsage);

@@ -118,6 +118,44 @@ TEST(BoundaryFiles, TextOfAPlyHasAllNumbers) {
   EXPECT_EQ(corners, "3");
 }
 
+TEST(PointTables, HaveWordsAndNoNaNInJson) {
+  const Mesh mesh = test::make_box({1, 2, 3});
+  const BoundaryFields fields = some_fields(mesh.vertices.size());
+  BoundaryFileOptions options;
+  options.delta = 0.25;
+  const nlohmann::json all = nlohmann::json::parse(encode_boundary("a.json", mesh, fields, options).value());
+  EXPECT_EQ(all["delta"], 0.25);
+  ASSERT_EQ(all["points"].size(), mesh.vertices.size());
+  EXPECT_EQ(all["triangles"].size(), mesh.triangles.size());
+  EXPECT_EQ(all["triangles"][1][2], mesh.triangles[1][2]);
+  const nlohmann::json& second = all["points"][1];
+  EXPECT_EQ(second["at"].get<std::vector<double>>()[1], mesh.vertices[1][1]);
+  EXPECT_EQ(second["thickness_kind"], "none");
+  EXPECT_EQ(second["curvature_state"], "few");
+  EXPECT_TRUE(second["kappa_1"].is_null());
+  EXPECT_EQ(second["thickness_lower"], 1 + 1.0 / 3);
+  EXPECT_EQ(second["ball_centre"].size(), 3u);
+  EXPECT_EQ(all["points"][0]["curvature_state"], "known");
+}
+
+TEST(PointTables, CsvHasALineForEachPoint) {
+  const std::vector<Point> points = {{1, 2, 3}, {4, 5, 0.1}};
+  std::vector<Thickness> thickness(2);
+  thickness[1].diameter = {0.5, 0.75};
+  thickness[1].ball = {{7, 8, 9}, 0.25};
+  thickness[1].object_angle = 1.5;
+  thickness[1].contacts = {Point{10, 11, 12}, Point{13, 14, 15}};
+  thickness[1].kind = ThicknessKind::kWall;
+  BoundaryFields fields;
+  add_thickness(fields, thickness);
+  const std::string text = encode_point_table("-", {points, {}, fields, 1}).value();
+  EXPECT_EQ(text,
+            "x,y,z,thickness_lower,thickness_upper,object_angle,thickness_kind,ball_centre_x,ball_centre_y,"
+            "ball_centre_z,ball_radius,contact_a_x,contact_a_y,contact_a_z,contact_b_x,contact_b_y,contact_b_z\n"
+            "1,2,3,0,0,0,none,0,0,0,0,0,0,0,0,0,0\n"
+            "4,5,0.1,0.5,0.75,1.5,wall,7,8,9,0.25,10,11,12,13,14,15\n");
+}
+
 TEST(BoundaryFiles, ANegativeNaNIsNaN) {
   const Mesh mesh = test::make_box({1, 2, 3});
   BoundaryFields fields;

@@ -290,12 +290,18 @@ TEST(ReportJson, HoldsWhatWasMeasuredOnTheBoundary) {
   thickness.intervals = {{1, 1.01}, {2, 3}, {2, 2.01}, {2, 2.01}};
   thickness.median = {2, 2.01};
   thickness.wide = 1;
+  thickness.wall_angle = 1.3;
+  thickness.of_kind = {0, 0, 1, 0, 3};
   record.boundary.thickness = thickness;
   json boundary = json::parse(report_json(record))["boundary"];
   EXPECT_TRUE(boundary["curvature"].is_null());
   EXPECT_TRUE(boundary["thickness"]["least_in_a_wall"].is_null());
   EXPECT_EQ(boundary["thickness"]["wide_share"], 0.25);
   EXPECT_EQ(boundary["thickness"]["points"], 4);
+  EXPECT_EQ(boundary["thickness"]["kinds"]["wall"], 0.75);
+  EXPECT_EQ(boundary["thickness"]["kinds"]["crease"], 0.25);
+  EXPECT_EQ(boundary["thickness"]["kinds"].size(), 5u);
+  EXPECT_EQ(boundary["thickness"]["wall_angle"], 1.3);
   record.boundary.thickness->least = Bounds{1, 1.01};
   record.boundary.thickness->least_at = {3, 4, 5};
   record.boundary.curvature = CurvatureRecord{{{-1.0, 2.0}}, {}, 0.125, 0.0625, 0.5};
@@ -307,7 +313,8 @@ TEST(ReportJson, HoldsWhatWasMeasuredOnTheBoundary) {
   EXPECT_EQ(boundary["curvature"]["none_share"], 0.0625);
   const std::string text = cli::summary(record, {});
   EXPECT_THAT(text, HasSubstr("median 2 to 2.01 by area; least met in a wall 1 to 1.01 at 3, 4, 5"));
-  EXPECT_THAT(text, HasSubstr("wider than 10 % at 25 % of the area"));
+  EXPECT_THAT(text, HasSubstr("walls 75 %, creases 25 %, corners 0 %, facets 0 % of the area"));
+  EXPECT_THAT(text, HasSubstr("wider than 10 % at 25 %"));
   EXPECT_THAT(
       text, HasSubstr("kappa 1 -1 to 2, kappa 2 unknown; one of both is known at 6.25 %, none at 6.25 % of the area"));
 }
