@@ -77,8 +77,9 @@ struct PlaneAxis {
   std::vector<AxisNode> nodes;
   std::vector<AxisArc> arcs;
   std::vector<AxisBranch> branches;
-  /// Every point of the axis is within this distance of a point with these contacts of the exact shape, and the other
-  /// way round; in input units.
+  /// Every point of these arcs is within this distance of the exact axis, and every point of the exact axis of them,
+  /// but for a share of the threshold, 2^-40; in input units. Nodes may be farther from theirs, along the axis, where
+  /// contacts differ by no more than rounding: at joints of segments that are nearly in line.
   double epsilon = 0;
   std::uint64_t cells = 0;  ///< Of the partition of the plane.
 
