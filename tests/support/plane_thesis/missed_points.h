@@ -1,0 +1,64 @@
+// The medial points in a circle that Algorithm 4 misses, against the conditions of Theorem 4.1 and against the tighter
+// ones of docs/theory.md ("What finitely many samples of a circle can miss").
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "medial_vk/plane_axis.h"
+#include "medial_vk/plane_thesis.h"
+
+namespace medial_vk::test {
+
+/// A medial point with two of its nearest boundary points.
+struct MedialPoint {
+  PlanePoint point = {};
+  std::array<PlanePoint, 2> feet = {};
+  double distance = 0;
+  double angle = 0;  ///< Between both spokes: twice the object angle.
+};
+
+/// At the parameter t of an arc.
+MedialPoint medial_point(const PreparedShape& shape, const AxisArc& arc, double t);
+
+/// Theta of an undetermined circle.
+class CombedCircle {
+ public:
+  CombedCircle(const PlaneCircle& circle, std::span<const CirclePoint> theta);
+
+  /// L of Theorem 4.1.
+  double longest_gap() const { return longest_gap_; }
+  bool hull_contains(PlanePoint p) const;
+
+  /// Where a spoke leaves the hull of Theta.
+  struct Exit {
+    std::uint32_t edge = 0;  ///< From the point of Theta with this number to the next one.
+    double dip = 0;          ///< From the medial point to the hull's border, along the spoke.
+    double rest = 0;         ///< From there to the boundary.
+    double reach = 0;        ///< The geometric mean of the distances to both ends of the edge.
+  };
+  Exit exit_of(const MedialPoint& p, int spoke) const;
+
+  /// Of the six conditions, each as a share of its bound: some share is below 1, says the theorem.
+  std::array<double, 6> published_shares(const MedialPoint& p) const;
+  /// Of the four conditions of the corollary: radius, angle, and the dip of either spoke.
+  std::array<double, 4> corollary_shares(const MedialPoint& p) const;
+  /// Of the theorem on strips: one number, at most 1. Negative if Theta is not combed around p, as rounding can have
+  /// it.
+  double strip_share(const MedialPoint& p) const;
+
+ private:
+  bool is_tail(std::uint32_t i) const;
+  double with_the_flow(const MedialPoint& p, std::uint32_t edge) const;
+
+  PlaneCircle circle_;
+  std::span<const CirclePoint> theta_;
+  double longest_gap_ = 0;
+};
+
+/// The greatest dip for what is left of a spoke and the reach of the gap: reach (reach / rest + sqrt(1 + (reach /
+/// rest)^2)).
+double greatest_dip(double rest, double reach);
+
+}  // namespace medial_vk::test
