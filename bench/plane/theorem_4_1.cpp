@@ -15,20 +15,21 @@ namespace {
 using medial_vk::bench::TrialCounts;
 using medial_vk::bench::TrialShape;
 
-constexpr std::uint64_t kCirclesPerShape = 250;
+constexpr std::uint64_t kCirclesPerShape = 200;
+constexpr std::uint64_t kStepsPerShape = 50;  // for each of the statements
 
 TrialCounts try_shape(unsigned family, std::uint64_t seed) {
   TrialCounts counts;
   const TrialShape shape(family, seed);
   if (!shape.is_usable()) return counts;
   counts.shapes = 1;
-  medial_vk::SplitMix random(~seed);
-  for (std::uint64_t i = 0; i < kCirclesPerShape; ++i) shape.try_circle(random, counts);
+  shape.try_circles(kCirclesPerShape, kStepsPerShape, counts);
   return counts;
 }
 
 void print_row(const std::string& name, const TrialCounts& c) {
-  fmt::print("| {} | {} | {} | {} | {} | {} |", name, c.circles, c.undetermined, c.missing, c.points, c.not_combed);
+  fmt::print("| {} | {} | {} | {} | {} | {} | {} |", name, c.circles, c.undetermined, c.missing, c.points,
+             c.against_the_flow, c.not_combed);
   for (std::size_t s = 0; s < medial_vk::bench::kStatements; ++s) {
     fmt::print(" {} | {:.4f} |", c.counterexamples[s], c.worst[s].share);
   }
@@ -58,9 +59,10 @@ int main(int argc, char** argv) {
   for (std::uint64_t i = 0; i < shapes; ++i) by_family[i % kFamilies].add(counts[i]);
   TrialCounts all;
   fmt::print(
-      "| shapes | circles | undetermined | of these with missed points | missed points sampled | at rounding | "
-      "published: counterexamples | worst share | corollary: counterexamples | worst share | strips: counterexamples | "
-      "worst share |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+      "| shapes | circles | undetermined | of these with missed points | missed points | with a spoke against the flow "
+      "| at rounding | published: counterexamples | worst | corollary: counterexamples | worst | with the flow: "
+      "counterexamples | worst | against it: counterexamples | worst |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (unsigned family = 0; family < kFamilies; ++family) {
     print_row(medial_vk::test::family_name(family), by_family[family]);
     all.add(by_family[family]);

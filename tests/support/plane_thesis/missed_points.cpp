@@ -85,8 +85,13 @@ CombedCircle::Exit CombedCircle::exit_of(const MedialPoint& p, int spoke) const 
     const double dip = plane::cross(a - from, edge) / speed;
     if (dip >= exit.dip) continue;
     const Vec2 at = from + dip * along;
-    exit = {i, dip, 0, std::sqrt(plane::distance(at, a) * plane::distance(at, b))};
+    exit = {i, dip, 0, std::sqrt(plane::distance(at, a) * plane::distance(at, b)), 0, 0, 0};
   }
+  const Vec2 a = vec(theta_[exit.edge].point), b = vec(theta_[(exit.edge + 1) % theta_.size()].point);
+  const Vec2 foot = vec(p.feet[static_cast<std::size_t>(spoke)]);
+  exit.depth = std::max(0.0, plane::cross(b - a, from - a) / plane::distance(a, b));
+  exit.bend = plane::angle_between(from - a, b - from);
+  exit.view = plane::angle_between(a - foot, b - foot);
   exit.dip = std::max(0.0, exit.dip);
   exit.rest = p.distance - exit.dip;
   return exit;
@@ -107,9 +112,12 @@ std::array<double, 6> CombedCircle::published_shares(const MedialPoint& p) const
 std::array<double, 4> CombedCircle::corollary_shares(const MedialPoint& p) const {
   const double half_turn = longest_gap_ / (2 * circle_.radius);
   const double width = 2 * circle_.radius * std::sin(half_turn);
-  const Exit a = exit_of(p, 0), b = exit_of(p, 1);
+  const auto dip_share = [&](const Exit& exit) {
+    const double bend = (half_turn + arc_sine(width / exit.rest)) / 2;
+    return std::max(exit.depth / (width / 2 * std::tan(bend / 2)), exit.dip / greatest_dip(exit.rest, width / 2));
+  };
   return {p.distance / width, p.distance < width ? 0 : p.angle / (half_turn + arc_sine(width / p.distance)),
-          a.dip / greatest_dip(a.rest, width / 2), b.dip / greatest_dip(b.rest, width / 2)};
+          dip_share(exit_of(p, 0)), dip_share(exit_of(p, 1))};
 }
 
 double CombedCircle::with_the_flow(const MedialPoint& p, std::uint32_t edge) const {
@@ -134,19 +142,22 @@ double CombedCircle::with_the_flow(const MedialPoint& p, std::uint32_t edge) con
   return p.angle / std::min({2 * turns[0], 2 * turns[1], spread + sum});
 }
 
-double CombedCircle::strip_share(const MedialPoint& p) const {
+CombedCircle::StripShares CombedCircle::strip_shares(const MedialPoint& p) const {
   const std::array<Exit, 2> exits = {exit_of(p, 0), exit_of(p, 1)};
-  double share = 0;
-  bool is_with_the_flow = true;
+  StripShares shares;
   for (const Exit& exit : exits) {
     const std::uint32_t next = (exit.edge + 1) % static_cast<std::uint32_t>(theta_.size());
-    if (is_tail(exit.edge) != is_tail(next)) return -1;
+    if (is_tail(exit.edge) != is_tail(next)) return {-1, -1, false};
     if (!is_tail(exit.edge)) continue;
-    is_with_the_flow = false;
-    share = std::max(share, exit.dip / greatest_dip(exit.rest, exit.reach));
+    const Vec2 left = vec(theta_[exit.edge].nearest.direction), right = vec(theta_[next].nearest.direction);
+    const double spread = std::atan2(plane::cross(right, left), plane::dot(right, left));
+    shares.against_the_flow = std::max({shares.against_the_flow, exit.dip / greatest_dip(exit.rest, exit.reach),
+                                        2 * exit.bend / (spread + exit.view)});
   }
-  if (!is_with_the_flow) return share;
-  return exits[0].edge == exits[1].edge ? with_the_flow(p, exits[0].edge) : -1;
+  if (shares.against_the_flow >= 0) return shares;
+  if (exits[0].edge != exits[1].edge) return {-1, -1, false};
+  shares.with_the_flow = with_the_flow(p, exits[0].edge);
+  return shares;
 }
 
 }  // namespace medial_vk::test

@@ -81,10 +81,27 @@ std::vector<PlaneRing> with_holes(SplitMix& random, double least, double most) {
   return rings;
 }
 
+/// The axis of the three has a point towards the lonely speck, which reaches into circles that it touches from there.
+std::vector<PlaneRing> triad(SplitMix& random) {
+  std::vector<PlaneRing> rings = {{{-3, -3}, {3, -3}, {3, 3}, {-3, 3}}};
+  const double apart = std::exp2(uniform(random, -8, 0.5));
+  for (const double a : {-kTurn / 4, kTurn / 4 - apart, kTurn / 4 + apart}) {
+    const PlanePoint at = polar(uniform(random, 0.999, 1.001), a);
+    PlaneRing speck;
+    for (const double b : sorted_angles(random, 3)) {
+      const PlanePoint p = polar(1e-7, b);
+      speck.push_back({at[0] + p[0], at[1] + p[1]});
+    }
+    rings.push_back(speck);
+  }
+  return rings;
+}
+
 }  // namespace
 
 std::string family_name(unsigned family) {
-  const std::array<const char*, kShapeFamilies> names = {"convex", "star", "comb", "holes", "spikes", "specks"};
+  const std::array<const char*, kShapeFamilies> names = {"convex", "star",   "comb",  "holes",
+                                                         "spikes", "specks", "triads"};
   return names.at(family);
 }
 
@@ -108,8 +125,11 @@ std::vector<PlaneRing> random_shape(unsigned family, std::uint64_t seed) {
     case 4:
       rings = {spikes(random)};
       break;
-    default:
+    case 5:
       rings = with_holes(random, 1e-6, 1e-3);
+      break;
+    default:
+      rings = triad(random);
   }
   const double turn = uniform(random, 0, kTurn), c = std::cos(turn), s = std::sin(turn);
   for (PlaneRing& ring : rings) {
