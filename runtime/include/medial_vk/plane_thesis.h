@@ -83,7 +83,7 @@ struct PlaneThesisOptions {
   /// As in PlaneAxisOptions.
   double object_angle = 0.6;
   double radius = 0;
-  /// Of each circle; at least 16, or 0: as many as are proved to miss no medial point of that object angle in a disc.
+  /// Of each circle; at least 6, or 0: as many as are proved to miss no medial point of that object angle in a disc.
   unsigned samples = 0;
   double largest_disc = 0;  ///< Its radius, in input units; 0: a 50th of the longest side.
   double least_disc = 0;    ///< No disc is smaller than half of it; 0: a 16th of the largest.

@@ -37,12 +37,6 @@ double arc_sine(double x) { return std::asin(std::min(1.0, x)); }
 
 }  // namespace
 
-double greatest_dip(double rest, double reach) {
-  if (!(rest > 0)) return kNone;
-  const double share = reach / rest;
-  return reach * (share + std::hypot(1, share));
-}
-
 MedialPoint medial_point(const PreparedShape& shape, const AxisArc& arc, double t) {
   MedialPoint p;
   p.point = arc.curve.point_at(t);
@@ -55,9 +49,10 @@ MedialPoint medial_point(const PreparedShape& shape, const AxisArc& arc, double 
 CombedCircle::CombedCircle(const PlaneCircle& circle, std::span<const CirclePoint> theta)
     : circle_(circle), theta_(theta) {
   for (std::size_t i = 0; i < theta.size(); ++i) {
-    const Vec2 a = vec(theta[i].point), b = vec(theta[(i + 1) % theta.size()].point);
-    const double half_chord = plane::distance(a, b) / 2;
-    longest_gap_ = std::max(longest_gap_, 2 * circle.radius * arc_sine(half_chord / circle.radius));
+    const Vec2 a = vec(theta[i].point) - vec(circle.centre);
+    const Vec2 b = vec(theta[(i + 1) % theta.size()].point) - vec(circle.centre);
+    const double turn = std::atan2(plane::cross(a, b), plane::dot(a, b));
+    longest_gap_ = std::max(longest_gap_, circle.radius * (turn < 0 ? turn + 2 * std::numbers::pi : turn));
   }
 }
 
@@ -84,16 +79,8 @@ CombedCircle::Exit CombedCircle::exit_of(const MedialPoint& p, int spoke) const 
     if (!(speed > 0)) continue;
     const double dip = plane::cross(a - from, edge) / speed;
     if (dip >= exit.dip) continue;
-    const Vec2 at = from + dip * along;
-    exit = {i, dip, 0, std::sqrt(plane::distance(at, a) * plane::distance(at, b)), 0, 0, 0};
+    exit = {i, std::max(0.0, dip), std::max(0.0, plane::cross(edge, from - a) / plane::length(edge))};
   }
-  const Vec2 a = vec(theta_[exit.edge].point), b = vec(theta_[(exit.edge + 1) % theta_.size()].point);
-  const Vec2 foot = vec(p.feet[static_cast<std::size_t>(spoke)]);
-  exit.depth = std::max(0.0, plane::cross(b - a, from - a) / plane::distance(a, b));
-  exit.bend = plane::angle_between(from - a, b - from);
-  exit.view = plane::angle_between(a - foot, b - foot);
-  exit.dip = std::max(0.0, exit.dip);
-  exit.rest = p.distance - exit.dip;
   return exit;
 }
 
@@ -105,41 +92,43 @@ std::array<double, 6> CombedCircle::published_shares(const MedialPoint& p) const
           p.distance < gap ? 0 : p.angle / angle,
           a.dip / gap,
           b.dip / gap,
-          a.rest / gap,
-          b.rest / gap};
+          (p.distance - a.dip) / gap,
+          (p.distance - b.dip) / gap};
 }
 
 std::array<double, 4> CombedCircle::corollary_shares(const MedialPoint& p) const {
   const double half_turn = longest_gap_ / (2 * circle_.radius);
   const double width = 2 * circle_.radius * std::sin(half_turn);
-  const auto dip_share = [&](const Exit& exit) {
-    const double bend = (half_turn + arc_sine(width / exit.rest)) / 2;
-    return std::max(exit.depth / (width / 2 * std::tan(bend / 2)), exit.dip / greatest_dip(exit.rest, width / 2));
-  };
-  return {p.distance / width, p.distance < width ? 0 : p.angle / (half_turn + arc_sine(width / p.distance)),
-          dip_share(exit_of(p, 0)), dip_share(exit_of(p, 1))};
+  if (p.distance <= width) return {p.distance / width, 0, 0, 0};
+  const double angle = half_turn + std::asin(width / p.distance);
+  const double depth = width / 2 * std::tan(angle / 4);
+  return {p.distance / width, p.angle / angle, exit_of(p, 0).depth / depth, exit_of(p, 1).depth / depth};
 }
 
-double CombedCircle::with_the_flow(const MedialPoint& p, std::uint32_t edge) const {
-  const std::uint32_t next = (edge + 1) % static_cast<std::uint32_t>(theta_.size());
-  std::array<double, 2> turns = {};  // xi
-  double sum = 0, farthest = 0;
-  std::array<Vec2, 2> flows;
+double CombedCircle::strip_share(const MedialPoint& p, std::uint32_t edge) const {
+  const std::array<std::uint32_t, 2> ends = {edge, (edge + 1) % static_cast<std::uint32_t>(theta_.size())};
+  const bool is_against = is_tail(edge);
   const Vec2 at = vec(p.point);
+  std::array<Vec2, 2> flows, from_tails;
+  double leans = 0, farthest = 0, least_turn = kNone;
   for (std::size_t side = 0; side < 2; ++side) {
-    const CirclePoint& head = theta_[side == 0 ? edge : next];
-    const Vec2 tail = vec(theta_[head.opposite].point);
-    flows[side] = vec(head.nearest.direction);
-    const double off = std::fabs(plane::cross(flows[side], at - vec(head.point)));
-    farthest = std::max(farthest, distance_to_segment(at, tail, vec(head.point)));
-    const double lean = std::atan2(off, plane::dot(flows[side], at - tail));
-    turns[side] = lean + arc_sine(off / p.distance);
-    sum += arc_sine(off / p.distance);
+    const CirclePoint& end = theta_[ends[side]];
+    const Vec2 here = vec(end.point), there = vec(theta_[end.opposite].point);
+    flows[side] = vec(end.nearest.direction);
+    from_tails[side] = at - (is_against ? here : there);
+    const double off = std::fabs(plane::cross(flows[side], at - here));
+    const double lean = arc_sine(off / p.distance);
+    leans += lean;
+    farthest = std::max(farthest, distance_to_segment(at, here, there));
+    least_turn = std::min(least_turn, lean + plane::angle_between(from_tails[side], flows[side]));
   }
   if (p.distance <= farthest) return p.distance / farthest;
-  // Positive where the flow spreads: `edge` runs counter-clockwise, so that the next head is on the left.
-  const double spread = std::atan2(plane::cross(flows[0], flows[1]), plane::dot(flows[0], flows[1]));
-  return p.angle / std::min({2 * turns[0], 2 * turns[1], spread + sum});
+  // Positive where the flow spreads: edges run counter-clockwise, so that the next head is on the left, the next tail
+  // on the right.
+  const Vec2 left = flows[is_against ? 0 : 1], right = flows[is_against ? 1 : 0];
+  const double sector = std::atan2(plane::cross(right, left), plane::dot(right, left)) + leans;
+  if (is_against) return 2 * (std::numbers::pi - plane::angle_between(from_tails[0], from_tails[1])) / sector;
+  return p.angle / std::min(sector, 2 * least_turn);
 }
 
 CombedCircle::StripShares CombedCircle::strip_shares(const MedialPoint& p) const {
@@ -148,15 +137,11 @@ CombedCircle::StripShares CombedCircle::strip_shares(const MedialPoint& p) const
   for (const Exit& exit : exits) {
     const std::uint32_t next = (exit.edge + 1) % static_cast<std::uint32_t>(theta_.size());
     if (is_tail(exit.edge) != is_tail(next)) return {-1, -1, false};
-    if (!is_tail(exit.edge)) continue;
-    const Vec2 left = vec(theta_[exit.edge].nearest.direction), right = vec(theta_[next].nearest.direction);
-    const double spread = std::atan2(plane::cross(right, left), plane::dot(right, left));
-    shares.against_the_flow = std::max({shares.against_the_flow, exit.dip / greatest_dip(exit.rest, exit.reach),
-                                        2 * exit.bend / (spread + exit.view)});
+    if (is_tail(exit.edge)) shares.against_the_flow = std::max(shares.against_the_flow, strip_share(p, exit.edge));
   }
   if (shares.against_the_flow >= 0) return shares;
   if (exits[0].edge != exits[1].edge) return {-1, -1, false};
-  shares.with_the_flow = with_the_flow(p, exits[0].edge);
+  shares.with_the_flow = strip_share(p, exits[0].edge);
   return shares;
 }
 

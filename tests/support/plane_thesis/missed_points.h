@@ -35,36 +35,30 @@ class CombedCircle {
   struct Exit {
     std::uint32_t edge = 0;  ///< From the point of Theta with this number to the next one.
     double dip = 0;          ///< From the medial point to the hull's border, along the spoke.
-    double rest = 0;         ///< From there to the boundary.
-    double reach = 0;        ///< The geometric mean of the distances to both ends of the edge.
     double depth = 0;        ///< From the medial point to the line of the edge.
-    double bend = 0;         ///< By how much the medial point sees the edge under less than a straight angle.
-    double view = 0;         ///< The angle under which the spoke's foot sees the edge.
   };
   Exit exit_of(const MedialPoint& p, int spoke) const;
 
   /// Of the six conditions, each as a share of its bound: some share is below 1, says the theorem.
   std::array<double, 6> published_shares(const MedialPoint& p) const;
-  /// Of the four conditions of the corollary: radius, angle, and depth and dip of either spoke.
+  /// Of the conditions of the corollary: radius, angle, and the depth behind the edge that either spoke crosses.
   std::array<double, 4> corollary_shares(const MedialPoint& p) const;
   /// Of the theorem on strips. Negative where it says nothing.
   struct StripShares {
     double with_the_flow = -1;     ///< Of the angle, where both spokes leave between heads.
-    double against_the_flow = -1;  ///< Of the bend and dip of a spoke that leaves between tails.
+    double against_the_flow = -1;  ///< Of the bend, where a spoke leaves between tails.
     bool is_combed = true;         ///< False where rounding decided about a sample.
   };
   StripShares strip_shares(const MedialPoint& p) const;
 
  private:
   bool is_tail(std::uint32_t i) const;
-  double with_the_flow(const MedialPoint& p, std::uint32_t edge) const;
+  /// The share of the bound where spokes leave through the edge after `edge`'s point: the angle or twice the bend.
+  double strip_share(const MedialPoint& p, std::uint32_t edge) const;
 
   PlaneCircle circle_;
   std::span<const CirclePoint> theta_;
   double longest_gap_ = 0;
 };
-
-/// The greatest dip for the rest of a spoke and the reach of the gap: reach (q + sqrt(1 + q^2)), q = reach / rest.
-double greatest_dip(double rest, double reach);
 
 }  // namespace medial_vk::test

@@ -17,7 +17,7 @@ namespace medial_vk {
 namespace plane {
 namespace {
 
-constexpr unsigned kLeastSamples = 16;  // fewer do not exclude Case 2 (docs/theory.md)
+constexpr unsigned kLeastSamples = 6;  // fewer can miss deep points (docs/theory.md)
 constexpr unsigned kMostSamples = 4096;
 constexpr double kDeepAngle = 0.15;        // the object angle of points that pass by their radius (Section 2.4.2)
 constexpr double kLeastDisc = 0x1p-16;     // of the longest side
@@ -43,7 +43,7 @@ double missed_angle(unsigned samples) {
 
 unsigned samples_for(double object_angle) {
   unsigned samples = kLeastSamples;
-  while (samples < kMostSamples && missed_angle(samples) > object_angle) samples *= 2;
+  while (samples < kMostSamples && missed_angle(samples) > object_angle) ++samples;
   return samples;
 }
 
@@ -112,7 +112,7 @@ Result<Search> search_for(const PlaneBoundary::Impl& boundary, const PlaneThesis
   }
   if (!(options.radius >= 0 && std::isfinite(options.radius))) return bad_option("`radius` must be a length, or 0");
   if (options.samples != 0 && (options.samples < kLeastSamples || options.samples > kMostSamples)) {
-    return bad_option("`samples` must be from 16 to 4096, or 0");
+    return bad_option("`samples` must be from 6 to 4096, or 0");
   }
   const double side = boundary.longest_side;
   const double largest = options.largest_disc == 0 ? kLargestDisc * side : options.largest_disc;
