@@ -79,7 +79,7 @@ CombedCircle::Exit CombedCircle::exit_of(const MedialPoint& p, int spoke) const 
     if (!(speed > 0)) continue;
     const double dip = plane::cross(a - from, edge) / speed;
     if (dip >= exit.dip) continue;
-    exit = {i, std::max(0.0, dip), std::max(0.0, plane::cross(edge, from - a) / plane::length(edge))};
+    exit = {i, std::max(0.0, dip), std::numbers::pi - plane::angle_between(a - from, b - from)};
   }
   return exit;
 }
@@ -101,8 +101,7 @@ std::array<double, 4> CombedCircle::corollary_shares(const MedialPoint& p) const
   const double width = 2 * circle_.radius * std::sin(half_turn);
   if (p.distance <= width) return {p.distance / width, 0, 0, 0};
   const double angle = half_turn + std::asin(width / p.distance);
-  const double depth = width / 2 * std::tan(angle / 4);
-  return {p.distance / width, p.angle / angle, exit_of(p, 0).depth / depth, exit_of(p, 1).depth / depth};
+  return {p.distance / width, p.angle / angle, 2 * exit_of(p, 0).bend / angle, 2 * exit_of(p, 1).bend / angle};
 }
 
 double CombedCircle::strip_share(const MedialPoint& p, std::uint32_t edge) const {

@@ -35,13 +35,13 @@ class CombedCircle {
   struct Exit {
     std::uint32_t edge = 0;  ///< From the point of Theta with this number to the next one.
     double dip = 0;          ///< From the medial point to the hull's border, along the spoke.
-    double depth = 0;        ///< From the medial point to the line of the edge.
+    double bend = 0;         ///< By how much the medial point sees the edge under less than a straight angle.
   };
   Exit exit_of(const MedialPoint& p, int spoke) const;
 
   /// Of the six conditions, each as a share of its bound: some share is below 1, says the theorem.
   std::array<double, 6> published_shares(const MedialPoint& p) const;
-  /// Of the conditions of the corollary: radius, angle, and the depth behind the edge that either spoke crosses.
+  /// Of the conditions of the corollary: radius, angle, and the bend of the edge that either spoke crosses.
   std::array<double, 4> corollary_shares(const MedialPoint& p) const;
   /// Of the theorem on strips. Negative where it says nothing.
   struct StripShares {
