@@ -10,7 +10,7 @@
 #include "base/split_mix.h"
 #include "support/plane_thesis/missed_points.h"
 
-namespace medial_vk::bench {
+namespace medial_vk::test {
 
 /// The statements that are checked.
 enum Statement : std::size_t { kPublished, kCorollary, kWithTheFlow, kAgainstTheFlow, kStatements };
@@ -26,6 +26,7 @@ struct TrialCounts {
   std::uint64_t against_the_flow = 0;  ///< Points with a spoke that leaves between tails.
   std::array<std::uint64_t, kStatements> counterexamples = {};
   std::array<Worst, kStatements> worst;
+  std::vector<std::string> reports;  ///< Of the first counterexamples.
 
   void add(const TrialCounts& other);
 };
@@ -49,7 +50,7 @@ class TrialShape {
   TrialShape(unsigned family, std::uint64_t seed);
   bool is_usable() const { return is_usable_; }
   /// So many random circles, and so many steps each from the worst of them to still worse ones. Counterexamples are
-  /// printed.
+  /// reported.
   void try_circles(std::uint64_t circles, std::uint64_t steps, TrialCounts& counts) const;
 
  private:
@@ -59,8 +60,8 @@ class TrialShape {
   Trial random_trial(SplitMix& random) const;
   /// The greatest share of each statement among the missed points.
   Shares check(const Trial& trial, TrialCounts& counts) const;
-  Shares check_arc(const test::CombedCircle& combed, const Trial& trial, const AxisArc& arc, TrialCounts& counts) const;
-  std::string describe(const Trial& trial, const test::MedialPoint& p) const;
+  Shares check_arc(const CombedCircle& combed, const Trial& trial, const AxisArc& arc, TrialCounts& counts) const;
+  std::string describe(const Trial& trial, const MedialPoint& p) const;
 
   unsigned family_ = 0;
   std::uint64_t seed_ = 0;
@@ -71,4 +72,4 @@ class TrialShape {
   std::optional<PlaneBoundary> boundary_;
 };
 
-}  // namespace medial_vk::bench
+}  // namespace medial_vk::test

@@ -1,4 +1,4 @@
-#include "circle_trials.h"
+#include "support/plane_thesis/circle_trials.h"
 
 #include <fmt/format.h>
 
@@ -10,17 +10,14 @@
 
 #include "support/plane_thesis/random_shapes.h"
 
-namespace medial_vk::bench {
+namespace medial_vk::test {
 namespace {
-
-using test::CombedCircle;
-using test::MedialPoint;
-using test::uniform;
 
 constexpr int kSearch = 32;   // points of an arc at which its way through a circle is looked for
 constexpr int kSamples = 24;  // of the part of an arc in a circle
 constexpr int kBisections = 40;
 constexpr int kRefinements = 24;
+constexpr std::size_t kReports = 10;
 constexpr double kLeastRadius = 1e-6;
 constexpr double kRounding = 1e-9;  // shares above 1 by less are not counted
 
@@ -79,6 +76,9 @@ void TrialCounts::add(const TrialCounts& other) {
   points += other.points;
   not_combed += other.not_combed;
   against_the_flow += other.against_the_flow;
+  for (const std::string& report : other.reports) {
+    if (reports.size() < kReports) reports.push_back(report);
+  }
   for (std::size_t s = 0; s < kStatements; ++s) {
     counterexamples[s] += other.counterexamples[s];
     if (other.worst[s].share > worst[s].share) worst[s] = other.worst[s];
@@ -86,7 +86,7 @@ void TrialCounts::add(const TrialCounts& other) {
 }
 
 TrialShape::TrialShape(unsigned family, std::uint64_t seed) : family_(family), seed_(seed) {
-  const std::vector<PlaneRing> rings = test::random_shape(family, seed);
+  const std::vector<PlaneRing> rings = random_shape(family, seed);
   Result<PreparedShape> shape = prepare_shape(rings, FillRule::kEvenOdd, 1);
   if (!shape) return;
   shape_ = std::move(shape).value();
@@ -123,32 +123,31 @@ std::vector<double> Trial::angles() const {
 Trial TrialShape::random_trial(SplitMix& random) const {
   for (;;) {
     Trial trial;
-    const AxisArc& arc = axis_.arcs[test::choice(random, static_cast<unsigned>(axis_.arcs.size()))];
+    const AxisArc& arc = axis_.arcs[choice(random, static_cast<unsigned>(axis_.arcs.size()))];
     // A third of the points are nodes.
-    const double t =
-        test::choice(random, 3) == 0 ? arc.t[test::choice(random, 2)] : uniform(random, arc.t[0], arc.t[1]);
-    const MedialPoint p = test::medial_point(shape_, arc, t);
+    const double t = choice(random, 3) == 0 ? arc.t[choice(random, 2)] : uniform(random, arc.t[0], arc.t[1]);
+    const MedialPoint p = medial_point(shape_, arc, t);
     const double away = p.distance * std::exp2(uniform(random, -10, 1));
     double direction = uniform(random, 0, 2 * std::numbers::pi);
     // A third of the circles lie opposite to a spoke, so that it leaves them at once.
-    if (test::choice(random, 3) == 0) {
-      const PlanePoint& foot = p.feet[test::choice(random, 2)];
+    if (choice(random, 3) == 0) {
+      const PlanePoint& foot = p.feet[choice(random, 2)];
       direction = std::atan2(foot[1] - p.point[1], foot[0] - p.point[0]) +
                   std::exp2(uniform(random, -12, 0)) * random.symmetric();
     }
     const PlanePoint centre = {p.point[0] - away * std::cos(direction), p.point[1] - away * std::sin(direction)};
     const double distance = boundary_->nearest(centre).distance;
     // Half of the circles hold the point of the axis by a little only.
-    const bool is_shallow = test::choice(random, 2) == 0;
+    const bool is_shallow = choice(random, 2) == 0;
     trial.circle = {centre, is_shallow ? away * (1 + std::exp2(uniform(random, -20, 0)))
                                        : distance * std::exp2(uniform(random, -6, 0))};
     if (!is_allowed(*boundary_, trial.circle)) continue;
     trial.samples = static_cast<unsigned>(3 * std::pow(100.0 / 3, uniform(random, 0, 1)) + 0.5);
     // Half of them see the point of the axis in the middle between two samples.
-    trial.phase = test::choice(random, 2) == 0 ? direction + std::numbers::pi / trial.samples
-                                               : uniform(random, 0, 2 * std::numbers::pi);
-    trial.jitter = test::choice(random, 3) == 0 ? 0.9 : 0;
-    trial.seed = test::choice(random, 1u << 30);
+    trial.phase = choice(random, 2) == 0 ? direction + std::numbers::pi / trial.samples
+                                         : uniform(random, 0, 2 * std::numbers::pi);
+    trial.jitter = choice(random, 3) == 0 ? 0.9 : 0;
+    trial.seed = choice(random, 1u << 30);
     return trial;
   }
 }
@@ -157,9 +156,9 @@ std::string TrialShape::describe(const Trial& trial, const MedialPoint& p) const
   return fmt::format(
       "{} {}: circle ({:.17g}, {:.17g}) radius {:.17g}, {} samples from {:.17g} jitter {} seed {}, medial point "
       "({:.17g}, {:.17g}) with feet ({:.17g}, {:.17g}) and ({:.17g}, {:.17g})",
-      test::family_name(family_), seed_, trial.circle.centre[0], trial.circle.centre[1], trial.circle.radius,
-      trial.samples, trial.phase, trial.jitter, trial.seed, p.point[0], p.point[1], p.feet[0][0], p.feet[0][1],
-      p.feet[1][0], p.feet[1][1]);
+      family_name(family_), seed_, trial.circle.centre[0], trial.circle.centre[1], trial.circle.radius, trial.samples,
+      trial.phase, trial.jitter, trial.seed, p.point[0], p.point[1], p.feet[0][0], p.feet[0][1], p.feet[1][0],
+      p.feet[1][1]);
 }
 
 Shares TrialShape::check_arc(const CombedCircle& combed, const Trial& trial, const AxisArc& arc,
@@ -168,7 +167,7 @@ Shares TrialShape::check_arc(const CombedCircle& combed, const Trial& trial, con
   const std::optional<std::array<double, 2>> part = part_inside(arc, trial.circle);
   if (!part) return best;
   const auto look_at = [&](double t) {
-    const MedialPoint p = test::medial_point(shape_, arc, t);
+    const MedialPoint p = medial_point(shape_, arc, t);
     if (p.distance <= 1e-9 || !combed.hull_contains(p.point)) return Shares{};
     const CombedCircle::StripShares strips = combed.strip_shares(p);
     const Shares shares = {std::ranges::min(combed.published_shares(p)), std::ranges::min(combed.corollary_shares(p)),
@@ -184,7 +183,8 @@ Shares TrialShape::check_arc(const CombedCircle& combed, const Trial& trial, con
       if (shares[s] > counts.worst[s].share) counts.worst[s] = {shares[s], describe(trial, p)};
       if (shares[s] <= 1 + kRounding) continue;
       ++counts.counterexamples[s];
-      fmt::print("counterexample to statement {} (share {:.12g}): {}\n", s, shares[s], describe(trial, p));
+      if (counts.reports.size() >= kReports) continue;
+      counts.reports.push_back(fmt::format("statement {}, share {:.12g}: {}", s, shares[s], describe(trial, p)));
     }
     return shares;
   };
@@ -258,4 +258,4 @@ void TrialShape::try_circles(std::uint64_t circles, std::uint64_t steps, TrialCo
   }
 }
 
-}  // namespace medial_vk::bench
+}  // namespace medial_vk::test
