@@ -31,6 +31,38 @@ TEST(Theorem41, HoldsForRandomCirclesAndForTheWorstNearThem) {
   EXPECT_GT(counts.worst[kWithTheFlow].share, 0.99);
 }
 
+/// Three specks at the distance 1 from the origin: one below, two above, each turned by `apart` from straight above.
+PreparedShape three_specks(double apart) {
+  std::vector<PlaneRing> rings = {{{-3, -3}, {3, -3}, {3, 3}, {-3, 3}}};
+  for (const double a : {-std::numbers::pi / 2, std::numbers::pi / 2 - apart, std::numbers::pi / 2 + apart}) {
+    const double x = std::cos(a), y = std::sin(a), size = 1e-8;
+    rings.push_back({{x - size, y}, {x + size, y - size}, {x, y + size}});
+  }
+  return prepare_shape(rings, FillRule::kEvenOdd, 1).value();
+}
+
+/// The second part of the theorem on strips is attained where a tail is as far from the foot below as from its own: the
+/// reflection of one in the line of the tail and the medial point is the other.
+TEST(Theorem41, TheBendIsNearlyAttained) {
+  for (const double half_bend : {0.02, 0.1, 0.2}) {
+    const PreparedShape shape = three_specks(2 * half_bend * 1.001);
+    const PlaneBoundary boundary = PlaneBoundary::build(shape).value();
+    const double half_gap = 0.05, radius = 0.3, turn = std::asin(half_gap / radius);
+    const PlaneCircle circle = {{0, radius * std::cos(turn) - half_gap * std::tan(half_bend)}, radius};
+    const double down = -std::numbers::pi / 2;
+    const std::vector<double> angles = {down - turn, down + turn, down - 2 * turn, down + 2 * turn, 0.1, 0.6, 3.0, 2.5};
+    const CircleDecision decision = decide_medial_axis(boundary, circle, angles).value();
+    ASSERT_EQ(decision.decision, MedialDecision::kUndetermined) << static_cast<int>(decision.reason);
+    const CombedCircle combed(circle, decision.points);
+    const PlanePoint left = {-std::sin(2 * half_bend), std::cos(2 * half_bend)};
+    const MedialPoint p = {{0, 0}, {left, {0, -1}}, 1, std::numbers::pi - 2 * half_bend};
+    ASSERT_TRUE(combed.hull_contains(p.point));
+    const double share = combed.strip_shares(p).against_the_flow;
+    EXPECT_LE(share, 1.002);  // its chords are turned by a thousandth more than in the limit
+    EXPECT_GE(share, 0.998);
+  }
+}
+
 /// Four chords across a circle around the origin, upwards, with the foot far above.
 std::vector<CirclePoint> upward_flow() {
   std::vector<CirclePoint> theta;

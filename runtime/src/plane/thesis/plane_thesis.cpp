@@ -164,8 +164,8 @@ Result<PublishedAxis> find_published(const PlaneBoundary::Impl& boundary, const 
   const Search& search = checked.value();
   const Cover cover = cover_inside(boundary.sites, boundary.tree, search.largest, search.least, options.threads, watch);
   std::vector<DiscResult> results(cover.discs.size());
-  constexpr std::size_t kBlock = 64;
-  parallel_blocks(results.size(), kBlock, options.threads, [&](std::size_t begin, std::size_t end) {
+  constexpr std::size_t kDiscBlock = 64;
+  parallel_blocks(results.size(), kDiscBlock, options.threads, [&](std::size_t begin, std::size_t end) {
     watch.check();
     for (std::size_t i = begin; i < end; ++i) results[i] = points_in_disc(boundary, cover.discs[i], search);
     watch.finish(end - begin, results.size());
