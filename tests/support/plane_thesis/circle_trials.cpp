@@ -142,7 +142,7 @@ Trial TrialShape::random_trial(SplitMix& random) const {
     trial.circle = {centre, is_shallow ? away * (1 + std::exp2(uniform(random, -20, 0)))
                                        : distance * std::exp2(uniform(random, -6, 0))};
     if (!is_allowed(*boundary_, trial.circle)) continue;
-    trial.samples = static_cast<unsigned>(3 * std::pow(100.0 / 3, uniform(random, 0, 1)) + 0.5);
+    trial.samples = static_cast<unsigned>(std::lround(3 * std::pow(100.0 / 3, uniform(random, 0, 1))));
     // Half of them see the point of the axis in the middle between two samples.
     trial.phase = choice(random, 2) == 0 ? direction + std::numbers::pi / trial.samples
                                          : uniform(random, 0, 2 * std::numbers::pi);
