@@ -90,7 +90,7 @@ enum class PlaneSide : std::uint8_t { kInside, kOutside, kBoth };
 
 struct PlaneAxisOptions {
   PlaneSide side = PlaneSide::kInside;
-  /// Radians: points have at least this object angle; 0 to pi / 2. Below 1e-7 it counts as that.
+  /// Radians: points have at least this object angle; 0 to pi / 2. Below 2^-13 it counts as that.
   double object_angle = 0.6;
   /// In input units: points of at least this radius need an object angle of 0.15 only (Section 2.4.2). 0: off.
   double radius = 0;

@@ -71,8 +71,6 @@ PlaneAxis in_input(const Diagram& diagram, const SiteSet& sites, const Frame& fr
   return axis;
 }
 
-std::size_t most_cells(const SiteSet& sites) { return 32 * std::size_t{sites.size()} + (std::size_t{1} << 20); }
-
 std::vector<Vec2> in_units(std::span<const PlanePoint> points, const Frame& frame) {
   std::vector<Vec2> result;
   result.reserve(points.size());
@@ -115,7 +113,6 @@ Result<PlaneAxis> axis_of_shape(const PreparedShape& shape, const PlaneAxisOptio
   if (options.radius > 0) query.radius = options.radius / frame.scale();
   query.half = half;
   query.threads = options.threads;
-  query.most_cells = most_cells(sites);
   return find(sites, query, frame, progress, stop);
 }
 
@@ -150,7 +147,6 @@ Result<PlaneAxis> voronoi_of_sites(const PlaneSites& given, const PlaneVoronoiOp
   query.object_angle = std::max(options.object_angle, kLeastAngle);
   query.half = half;
   query.threads = options.threads;
-  query.most_cells = most_cells(sites);
   return find(sites, query, frame, progress, stop);
 }
 

@@ -1,7 +1,9 @@
 #include "plane/diagram/cell_tree.h"
 
 #include <algorithm>
+#include <memory>
 #include <numeric>
+#include <utility>
 
 #include "base/parallel.h"
 #include "plane/diagram/site_lists.h"
@@ -9,8 +11,12 @@
 namespace medial_vk::plane {
 namespace {
 
-constexpr std::size_t kCellsAtATime = 16;
 constexpr double kLeastReach = 0x1p-38;  // near the rounding of centres
+
+// The cells of the first levels are divided side by side; what is below one of them is built by one thread, whose sites
+// then stay in its cache.
+constexpr int kSharedLevels = 8;
+constexpr std::size_t kSitesOfBranch = 256;  // with fewer sites a cell is not divided so
 
 /// The part of a convex polygon where the line's height is at most 0, or with `sign` -1 at least 0. Appended.
 void clip(std::span<const Vec2> polygon, const Line& line, double sign, std::vector<Vec2>& part) {
@@ -31,51 +37,6 @@ void measure(Cell& cell) {
 
 }  // namespace
 
-/// Cells of one level with their corners and sites.
-struct CellTree::Level {
-  std::vector<Node> nodes;
-  std::vector<Vec2> corners;
-  std::vector<std::uint32_t> sites;
-
-  Cell cell(const Node& node) const {
-    Cell result;
-    result.corners = std::span(corners).subspan(static_cast<std::size_t>(node.first_corner), node.corners);
-    result.sites = std::span(sites).subspan(static_cast<std::size_t>(node.first_site), node.sites);
-    measure(result);
-    return result;
-  }
-
-  /// Half of a divided cell of `parents`; with fewer than three corners nothing is left of it.
-  void add_child(const Level& parents, const Node& parent, double sign, SiteLists& lists) {
-    Node node;
-    node.first_corner = corners.size();
-    node.first_site = sites.size();
-    clip(parents.cell(parent).corners, parent.cut, sign, corners);
-    node.corners = static_cast<std::uint32_t>(corners.size() - node.first_corner);
-    node.state = CellState::kDismissed;
-    if (node.corners >= 3) {
-      Cell cell;
-      cell.corners = std::span(corners).subspan(static_cast<std::size_t>(node.first_corner), node.corners);
-      cell.sites = parents.cell(parent).sites;
-      measure(cell);
-      node.state = lists.find(cell, sites, node.cut);
-      if (node.state == CellState::kDivided && cell.reach < kLeastReach) node.state = CellState::kClustered;
-    }
-    node.sites = static_cast<std::uint32_t>(sites.size() - node.first_site);
-    nodes.push_back(node);
-  }
-
-  void append(const Level& part) {
-    for (Node node : part.nodes) {
-      node.first_corner += corners.size();
-      node.first_site += sites.size();
-      nodes.push_back(node);
-    }
-    corners.insert(corners.end(), part.corners.begin(), part.corners.end());
-    sites.insert(sites.end(), part.sites.begin(), part.sites.end());
-  }
-};
-
 Cell CellTree::cell(std::uint32_t node) const {
   const Node& n = nodes_[node];
   Cell result;
@@ -85,60 +46,160 @@ Cell CellTree::cell(std::uint32_t node) const {
   return result;
 }
 
-/// Appends the nodes of a level, and corners and sites of those that are not divided further.
-void CellTree::add(const Level& level, std::size_t most_cells) {
-  std::size_t next = nodes_.size() + level.nodes.size();
-  for (Node node : level.nodes) {
-    if (node.state == CellState::kDivided && level.nodes.size() > most_cells) node.state = CellState::kClustered;
-    if (node.state == CellState::kDivided) {
-      node.child = static_cast<std::uint32_t>(next);
-      next += 2;
-    } else if (node.state != CellState::kDismissed) {
-      const Cell cell = level.cell(node);
-      node.first_corner = corners_.size();
-      node.first_site = sites_.size();
-      corners_.insert(corners_.end(), cell.corners.begin(), cell.corners.end());
-      sites_.insert(sites_.end(), cell.sites.begin(), cell.sites.end());
-    }
-    nodes_.push_back(node);
-  }
+void CellTree::graft(std::uint32_t node, const CellTree& branch) {
+  const auto shift = static_cast<std::uint32_t>(nodes_.size()) - 1;  // the root of the branch is not copied
+  const auto placed = [&](Node n) {
+    n.child += shift;
+    n.first_corner += corners_.size();
+    n.first_site += sites_.size();
+    return n;
+  };
+  nodes_[node] = placed(branch.nodes_.front());
+  for (std::size_t i = 1; i < branch.nodes_.size(); ++i) nodes_.push_back(placed(branch.nodes_[i]));
+  corners_.insert(corners_.end(), branch.corners_.begin(), branch.corners_.end());
+  sites_.insert(sites_.end(), branch.sites_.begin(), branch.sites_.end());
 }
+
+/// Builds trees below given cells. An object is used by one thread.
+class CellTreeBuilder {
+ public:
+  using Node = CellTree::Node;
+  /// A cell that is to be divided further.
+  struct Open {
+    std::uint32_t node = 0;
+    Line cut;
+    std::vector<Vec2> corners;
+    std::vector<std::uint32_t> sites;
+  };
+
+  CellTreeBuilder(const SiteSet& sites, const DiagramQuery& query, const LoopWatch& watch)
+      : lists_(sites, query), watch_(watch) {}
+
+  /// The half of a divided cell on one side of its cut; its node has corners and sites only where it is not divided.
+  CellState half_of(const Open& parent, double sign, Open& half) {
+    half.corners.clear();
+    half.sites.clear();
+    clip(parent.corners, parent.cut, sign, half.corners);
+    if (half.corners.size() < 3) return CellState::kDismissed;
+    Cell cell;
+    cell.corners = half.corners;
+    cell.sites = parent.sites;
+    measure(cell);
+    const CellState state = lists_.find(cell, half.sites, half.cut);
+    return state == CellState::kDivided && cell.reach < kLeastReach ? CellState::kClustered : state;
+  }
+
+  /// The tree below a cell, the cell as its root.
+  CellTree branch(const Open& open, std::size_t most_cells) {
+    CellTree tree;
+    tree.nodes_.resize(1);
+    most_cells_ = most_cells;
+    divide(tree, 0, open, 0);
+    return tree;
+  }
+
+  static void keep(CellTree& tree, std::uint32_t node, CellState state, const Open& open) {
+    Node& n = tree.nodes_[node];
+    n.state = state;
+    if (state == CellState::kDismissed) return;
+    n.first_corner = tree.corners_.size();
+    n.first_site = tree.sites_.size();
+    n.corners = static_cast<std::uint32_t>(open.corners.size());
+    n.sites = static_cast<std::uint32_t>(open.sites.size());
+    tree.corners_.insert(tree.corners_.end(), open.corners.begin(), open.corners.end());
+    tree.sites_.insert(tree.sites_.end(), open.sites.begin(), open.sites.end());
+  }
+
+  static std::uint32_t add_children(CellTree& tree, std::uint32_t node, const Line& cut) {
+    const auto child = static_cast<std::uint32_t>(tree.nodes_.size());
+    tree.nodes_[node].child = child;
+    tree.nodes_[node].cut = cut;
+    tree.nodes_.resize(tree.nodes_.size() + 2);
+    return child;
+  }
+
+ private:
+  void divide(CellTree& tree, std::uint32_t node, const Open& open, std::size_t depth) {
+    watch_.check();
+    const std::uint32_t child = add_children(tree, node, open.cut);
+    if (depth == stack_.size()) stack_.push_back(std::make_unique<Open>());
+    Open& half = *stack_[depth];
+    for (const std::uint32_t side : {0u, 1u}) {
+      CellState state = half_of(open, side == 0 ? 1 : -1, half);
+      if (state == CellState::kDivided && tree.nodes_.size() > most_cells_) state = CellState::kClustered;
+      if (state == CellState::kDivided) {
+        divide(tree, child + side, half, depth + 1);
+      } else {
+        keep(tree, child + side, state, half);
+      }
+    }
+  }
+
+  SiteLists lists_;
+  const LoopWatch& watch_;
+  std::size_t most_cells_ = 0;
+  std::vector<std::unique_ptr<Open>> stack_;  // by depth
+};
+
+namespace {
+
+using Open = CellTreeBuilder::Open;
+
+Open root_of(const SiteSet& sites, const DiagramQuery& query) {
+  Open root;
+  root.sites.resize(sites.size());
+  std::iota(root.sites.begin(), root.sites.end(), 0u);
+  for (const Vec2 way : {Vec2{-1, -1}, Vec2{1, -1}, Vec2{1, 1}, Vec2{-1, 1}}) {
+    root.corners.push_back(query.centre + query.half * way);
+  }
+  root.cut = {{1, 0}, query.centre.x};
+  return root;
+}
+
+}  // namespace
 
 CellTree CellTree::build(const SiteSet& sites, const DiagramQuery& query, const LoopWatch& watch) {
   CellTree tree;
   tree.centre_ = query.centre;
   tree.half_ = query.half;
-  Level level;
-  level.sites.resize(sites.size());
-  std::iota(level.sites.begin(), level.sites.end(), 0u);
-  for (const Vec2 way : {Vec2{-1, -1}, Vec2{1, -1}, Vec2{1, 1}, Vec2{-1, 1}}) {
-    level.corners.push_back(query.centre + query.half * way);
-  }
-  Node root;
-  root.corners = 4;
-  root.sites = sites.size();
-  root.cut = {{1, 0}, query.centre.x};
-  level.nodes.push_back(root);
-  for (;; ++tree.levels_) {
-    tree.add(level, query.most_cells);
-    std::vector<const Node*> divided;
-    for (const Node& node : level.nodes) {
-      if (node.state == CellState::kDivided && level.nodes.size() <= query.most_cells) divided.push_back(&node);
-    }
-    if (divided.empty()) return tree;
-    std::vector<Level> parts((divided.size() + kCellsAtATime - 1) / kCellsAtATime);
-    parallel_blocks(divided.size(), kCellsAtATime, query.threads, [&](std::size_t begin, std::size_t end) {
+  tree.nodes_.resize(1);
+  std::vector<Open> open;
+  open.push_back(root_of(sites, query));
+  for (int level = 0; level < kSharedLevels; ++level) {
+    std::vector<Open> halves(2 * open.size());
+    std::vector<CellState> states(2 * open.size(), CellState::kDivided);
+    const auto is_large = [&](std::size_t i) { return open[i].sites.size() > kSitesOfBranch; };
+    parallel_for(halves.size(), 1, query.threads, [&](std::size_t i) {
       watch.check();
-      SiteLists lists(sites, query);
-      Level& part = parts[begin / kCellsAtATime];
-      for (std::size_t i = begin; i < end; ++i) {
-        for (const double sign : {1.0, -1.0}) part.add_child(level, *divided[i], sign, lists);
-      }
+      if (!is_large(i / 2)) return;
+      states[i] = CellTreeBuilder(sites, query, watch).half_of(open[i / 2], i % 2 == 0 ? 1 : -1, halves[i]);
     });
-    Level next;
-    for (const Level& part : parts) next.append(part);
-    level = std::move(next);
+    std::vector<Open> next;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      if (!is_large(i)) {
+        next.push_back(std::move(open[i]));
+        continue;
+      }
+      const std::uint32_t child = CellTreeBuilder::add_children(tree, open[i].node, open[i].cut);
+      for (const std::uint32_t side : {0u, 1u}) {
+        Open& half = halves[2 * i + side];
+        half.node = child + side;
+        if (states[2 * i + side] == CellState::kDivided) {
+          next.push_back(std::move(half));
+        } else {
+          CellTreeBuilder::keep(tree, half.node, states[2 * i + side], half);
+        }
+      }
+    }
+    open = std::move(next);
   }
+  std::vector<CellTree> branches(open.size());
+  parallel_for(open.size(), 1, query.threads, [&](std::size_t i) {
+    const std::size_t most = query.cells_of_branch + 32 * open[i].sites.size();
+    branches[i] = CellTreeBuilder(sites, query, watch).branch(open[i], most);
+  });
+  for (std::size_t i = 0; i < open.size(); ++i) tree.graft(open[i].node, branches[i]);
+  return tree;
 }
 
 std::uint32_t CellTree::node_at(Vec2 x) const {

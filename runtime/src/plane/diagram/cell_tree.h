@@ -47,27 +47,26 @@ class CellTree {
   Cell cell(std::uint32_t node) const;
   /// The undivided cell that holds x; kNone outside of the square.
   std::uint32_t node_at(Vec2 x) const;
-  int levels() const { return levels_; }
 
   static constexpr std::uint32_t kNone = ~0u;
 
  private:
+  friend class CellTreeBuilder;
   struct Node {
     CellState state = CellState::kDivided;
     std::uint32_t child = 0;  // the first of two: where the cut's height is negative
     Line cut;
-    std::uint64_t first_corner = 0, first_site = 0;
+    std::uint64_t first_corner = 0, first_site = 0;  // of cells that are not divided
     std::uint32_t corners = 0, sites = 0;
   };
-  struct Level;
-  void add(const Level& level, std::size_t most_cells);
+  /// The parts of another tree below `node`, whose root takes its place.
+  void graft(std::uint32_t node, const CellTree& branch);
 
   std::vector<Node> nodes_;  // the root first
   std::vector<Vec2> corners_;
   std::vector<std::uint32_t> sites_;
   Vec2 centre_;
   double half_ = 0;
-  int levels_ = 0;
 };
 
 }  // namespace medial_vk::plane

@@ -228,7 +228,6 @@ Diagram find_diagram(const SiteSet& sites, const DiagramQuery& query, LoopWatch&
   drop_copies(diagram.arcs);
   drop_lone_nodes(sites, query, nodes, diagram);
   diagram.cells = tree.size();
-  diagram.levels = tree.levels();
   diagram.clustered = nodes.clustered();
   return diagram;
 }

@@ -32,7 +32,6 @@ struct Diagram {
   std::vector<DiagramNode> nodes;
   std::vector<DiagramArc> arcs;
   std::size_t cells = 0;
-  int levels = 0;
   /// Of the largest cell in which sites were taken to be equally far; 0 if there is none.
   double clustered = 0;
 };

@@ -24,7 +24,8 @@ struct DiagramQuery {
   double half = 0.5;  ///< Of its side.
   double slack = 0;   ///< Sites by so much farther than the nearest one count as nearest.
   unsigned threads = 0;
-  std::size_t most_cells = 0;  ///< Of one level; cells beyond are not divided further.
+  /// Cells below one of the first few hundred, beyond 32 for each of its sites; others are not divided further.
+  std::size_t cells_of_branch = std::size_t{1} << 16;
 
   /// The object angle that a point needs if its radius may be this.
   double least_angle(double at_radius) const {
@@ -33,7 +34,7 @@ struct DiagramQuery {
 };
 
 /// Angles below are rounding.
-inline constexpr double kLeastAngle = 1e-7;
+inline constexpr double kLeastAngle = 0x1p-13;
 
 /// Of a distance r that was computed from coordinates within [-1/2, 1/2]: roundings of the coordinates of a centre, and
 /// of the few operations from there. Sites whose distances differ by less are taken to be equally far.

@@ -70,10 +70,23 @@ bool can_pair(const SiteSet& sites, Wanted wanted, Contact a, Contact b) {
   return sites.is_point(a.site) || sites.is_point(b.site) || a.side == b.side;
 }
 
+/// Whether a point joins two segments so nearly in line that from this distance rounding decides which of the three is
+/// nearest: beside the point, the distance of the segment's line is less by no more than radius turn^2 / 2.
+bool is_straight_joint(const SiteSet& sites, std::uint32_t site, double radius) {
+  if (!sites.is_point(site) || sites.segments_of(site).size() != 2) return false;
+  const Vec2 a = sites.leaving(site, sites.segments_of(site)[0]), b = sites.leaving(site, sites.segments_of(site)[1]);
+  const double turn = cross(a, b);
+  return dot(a, b) < 0 && radius * turn * turn <= 8 * tie(radius);
+}
+
 bool can_touch(const SiteSet& sites, Wanted wanted, Contact contact, const Circle& circle) {
   const double slack = tie(circle.radius);
   if (std::fabs(distance_to(sites, contact, circle.centre) - circle.radius) > slack) return false;
-  if (sites.outside_of_region(contact.site, circle.centre) > slack) return false;
+  const double outside = sites.outside_of_region(contact.site, circle.centre);
+  if (outside > slack &&
+      !(is_straight_joint(sites, contact.site, circle.radius) && outside * outside <= 2 * circle.radius * slack)) {
+    return false;
+  }
   if (wanted == Wanted::kBetweenOwners || !sites.is_point(contact.site)) return true;
   return sites.segments_of(contact.site).empty() || allows(wanted, sites.side_of(contact.site, circle.centre));
 }

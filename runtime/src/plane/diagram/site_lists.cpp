@@ -9,6 +9,7 @@ namespace {
 
 // Of distances in this file, from coordinates within [-1/2, 1/2] and some ten operations.
 constexpr double kRounding = 0x1p-49;
+constexpr std::size_t kManySites = 64;  // in a cell that is too large for comparisons to remove many
 
 /// The extent of a cell in a direction.
 double extent(const Cell& cell, Vec2 way) {
@@ -75,8 +76,7 @@ SiteLists::Near SiteLists::bound_of(const Cell& cell, std::uint32_t site, double
   return {site, distance, (1 / distance) * (cell.centre - sites_.foot(site, cell.centre)), false};
 }
 
-void SiteLists::collect(const Cell& cell) {
-  near_.clear();
+void SiteLists::measure(const Cell& cell) {
   distances_.clear();
   nearest_distance_ = std::numeric_limits<double>::infinity();
   for (const std::uint32_t site : cell.sites) {
@@ -85,6 +85,10 @@ void SiteLists::collect(const Cell& cell) {
     nearest_distance_ = distances_.back();
     nearest_ = site;
   }
+}
+
+void SiteLists::collect(const Cell& cell) {
+  near_.clear();
   // A site that is nearest anywhere in the cell is at most twice the reach farther from the centre than the nearest.
   const double most = nearest_distance_ + 2 * cell.reach + slack_;
   for (std::size_t i = 0; i < cell.sites.size(); ++i) {
@@ -110,25 +114,33 @@ void SiteLists::prune_against(const Cell& cell, std::uint32_t site) {
 
 void SiteLists::prune(const Cell& cell) {
   if (near_.size() < 2) return;
+  tried_.assign(1, nearest_);
   prune_against(cell, nearest_);
+  if (near_.size() > kManySites) return;
   for (const Vec2 corner : cell.corners) {
     if (near_.size() <= 3) return;
-    double least = std::numeric_limits<double>::infinity();
+    double least = sites_.distance_to(nearest_, corner);
     std::uint32_t best = nearest_;
     for (const Near& n : near_) {
+      if (n.distance + dot(n.away, corner - cell.centre) >= least) continue;
       const double d = sites_.distance_to(n.site, corner);
       if (d >= least) continue;
       least = d;
       best = n.site;
     }
-    if (best != nearest_) prune_against(cell, best);
+    if (std::ranges::find(tried_, best) != tried_.end()) continue;
+    tried_.push_back(best);
+    prune_against(cell, best);
   }
 }
 
+bool SiteLists::is_wanted_side(const Cell& cell) const {
+  return query_.wanted == Wanted::kBetweenOwners || query_.wanted == Wanted::kBothSides ||
+         allows(query_.wanted, sites_.side_of(nearest_, cell.centre));
+}
+
 bool SiteLists::is_on_other_side(const Cell& cell) const {
-  if (query_.wanted == Wanted::kBetweenOwners || allows(query_.wanted, sites_.side_of(nearest_, cell.centre))) {
-    return false;
-  }
+  if (is_wanted_side(cell)) return false;
   // The side is that of the whole cell unless the boundary crosses it.
   return std::ranges::none_of(near_, [&](const Near& n) {
     return !n.is_linear && std::ranges::any_of(cell.corners, [&](Vec2 corner) {
@@ -230,6 +242,8 @@ Line SiteLists::cut_of(const Cell& cell) {
 }
 
 CellState SiteLists::find(const Cell& cell, std::vector<std::uint32_t>& list, Line& cut) {
+  measure(cell);
+  if (nearest_distance_ > cell.reach + slack_ && !is_wanted_side(cell)) return CellState::kDismissed;
   collect(cell);
   prune(cell);
   if (is_dismissed(cell)) return CellState::kDismissed;

@@ -26,12 +26,14 @@ class SiteLists {
     Vec2 away;
     bool is_linear;  // equality: the line of a segment, all of the cell on one side of it
   };
+  void measure(const Cell& cell);
   void collect(const Cell& cell);
   bool can_be_nearest(const Cell& cell, std::uint32_t site) const;
   Near bound_of(const Cell& cell, std::uint32_t site, double distance) const;
   void prune(const Cell& cell);
   void prune_against(const Cell& cell, std::uint32_t site);
   bool is_dismissed(const Cell& cell) const;
+  bool is_wanted_side(const Cell& cell) const;
   bool is_on_other_side(const Cell& cell) const;
   bool has_small_angles(const Cell& cell) const;
   bool has_one_owner() const;
@@ -45,7 +47,8 @@ class SiteLists {
   const double slack_;
   std::vector<Near> near_;
   std::vector<double> distances_, farthest_, values_;
-  std::uint32_t nearest_ = 0;  // to the centre
+  std::vector<std::uint32_t> tried_;  // to prune against
+  std::uint32_t nearest_ = 0;         // to the centre
   double nearest_distance_ = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "plane/diagram/cell_tree.h"
+#include "plane/shapes/close_edges.h"
 #include "plane/shapes/orientation.h"
 
 namespace medial_vk::plane {
@@ -29,19 +30,14 @@ struct Meeting {
   friend constexpr auto operator<=>(const Meeting&, const Meeting&) = default;
 };
 
-/// The meetings in a diagram's cells: sites that meet are both nearest where they do.
+/// The meetings of edges, and of their ends with other edges and ends.
 class Meetings {
  public:
   Meetings(const SiteSet& sites, unsigned threads, const LoopWatch& watch) : sites_(sites) {
-    DiagramQuery query;
-    query.wanted = Wanted::kBothSides;
-    query.object_angle = 2;  // above every angle: cells without boundary are dismissed
-    query.slack = 2 * kSnap;
-    query.threads = threads;
-    query.most_cells = 32 * std::size_t{sites.size()} + (std::size_t{1} << 20);
-    const CellTree tree = CellTree::build(sites, query, watch);
-    for (std::uint32_t node = 0; node < tree.size(); ++node) {
-      if (tree.state(node) == CellState::kLeaf || tree.state(node) == CellState::kClustered) add(tree.cell(node).sites);
+    if (const auto pairs = close_edges(sites, 2 * kSnap, threads, watch)) {
+      for (const auto& [a, b] : *pairs) add_edges(a, b);
+    } else {
+      add_from_cells(threads, watch);
     }
     std::ranges::sort(all_);
     all_.erase(std::unique(all_.begin(), all_.end()), all_.end());
@@ -50,11 +46,29 @@ class Meetings {
   const std::vector<Meeting>& all() const { return all_; }
 
  private:
+  void add_edges(std::uint32_t a, std::uint32_t b) {
+    const auto &ends = sites_.segment(a).ends, &other_ends = sites_.segment(b).ends;
+    add(std::array{a, b, ends[0], ends[1], other_ends[0], other_ends[1]});
+  }
+
+  /// Sites that meet are both nearest where they do.
+  void add_from_cells(unsigned threads, const LoopWatch& watch) {
+    DiagramQuery query;
+    query.wanted = Wanted::kBothSides;
+    query.object_angle = 2;  // above every angle: cells without boundary are dismissed
+    query.slack = 2 * kSnap;
+    query.threads = threads;
+    const CellTree tree = CellTree::build(sites_, query, watch);
+    for (std::uint32_t node = 0; node < tree.size(); ++node) {
+      if (tree.state(node) == CellState::kLeaf || tree.state(node) == CellState::kClustered) add(tree.cell(node).sites);
+    }
+  }
+
   void add(std::span<const std::uint32_t> list) {
     for (std::size_t i = 0; i < list.size(); ++i) {
       for (std::size_t k = i + 1; k < list.size(); ++k) {
         const std::uint32_t a = std::min(list[i], list[k]), b = std::max(list[i], list[k]);
-        if (meet(a, b)) all_.push_back({a, b});
+        if (a != b && meet(a, b)) all_.push_back({a, b});
       }
     }
   }
