@@ -31,6 +31,7 @@
 #include "medial_vk/penetration.h"
 #include "medial_vk/plane_axis.h"
 #include "medial_vk/plane_shape.h"
+#include "medial_vk/plane_thesis.h"
 #include "medial_vk/pose.h"
 #include "medial_vk/prepare.h"
 #include "medial_vk/progress.h"
