@@ -47,7 +47,7 @@ PlaneCurve curve_in_input(const Bisector& curve, const Frame& frame) {
   return result;
 }
 
-PlaneAxis in_input(const Diagram& diagram, const SiteSet& sites, const Frame& frame) {
+PlaneAxis in_input(const Diagram& diagram, const SiteSet& sites, const DiagramQuery& query, const Frame& frame) {
   PlaneAxis axis;
   axis.nodes.reserve(diagram.nodes.size());
   for (const DiagramNode& node : diagram.nodes) {
@@ -66,7 +66,8 @@ PlaneAxis in_input(const Diagram& diagram, const SiteSet& sites, const Frame& fr
                          {contact(arc.contacts[0]), contact(arc.contacts[1])}});
   }
   axis.cells = diagram.cells;
-  axis.epsilon = frame.scale() * std::max(diagram.clustered, kEpsilon);
+  const double across = tie(1) / std::sin(query.least_angle(1));  // of points that are accepted as equally far
+  axis.epsilon = frame.scale() * std::max({diagram.clustered, kEpsilon, across});
   set_branches(axis);
   return axis;
 }
@@ -97,7 +98,7 @@ Extent extent_of(std::span<const PlanePoint> points, double margin, bool is_boun
 Result<PlaneAxis> find(const SiteSet& sites, const DiagramQuery& query, const Frame& frame,
                        const ProgressCallback& progress, const std::stop_token& stop) {
   LoopWatch watch(progress, stop);
-  return in_input(find_diagram(sites, query, watch), sites, frame);
+  return in_input(find_diagram(sites, query, watch), sites, query, frame);
 }
 
 Result<PlaneAxis> axis_of_shape(const PreparedShape& shape, const PlaneAxisOptions& options,

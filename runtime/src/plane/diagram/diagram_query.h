@@ -40,7 +40,7 @@ inline constexpr double kLeastAngle = 0x1p-13;
 /// of the few operations from there. Sites whose distances differ by less are taken to be equally far.
 constexpr double tie(double r) { return 0x1p-43 * r + 0x1p-50; }
 
-/// Of nodes and arcs: the distance from the exact ones (docs/theory.md, "In the plane").
+/// Nodes that became one are less far apart (docs/theory.md, "The exact axis").
 inline constexpr double kEpsilon = 0x1p-36;
 
 inline bool allows(Wanted wanted, Side side) {
