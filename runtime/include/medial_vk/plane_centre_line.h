@@ -1,0 +1,67 @@
+// Centre lines from a medial axis in the plane: short or insignificant branches pruned, the longest path, and branches
+// as polylines (docs/theory.md, "Centre lines in the plane").
+#pragma once
+
+#include <cstdint>
+#include <stop_token>
+#include <vector>
+
+#include "medial_vk/plane_axis.h"
+#include "medial_vk/result.h"
+
+namespace medial_vk {
+
+/// An end branch lies between a free end and a junction. A branch with two free ends is all that is left of its part of
+/// the axis, and stays; so do loops, and branches that leave the box that was searched.
+struct PlanePruning {
+  /// In input units: end branches that are shorter are removed, the shortest first; 0: none.
+  double length = 0;
+  /// In input units: end branches of a lower significance are removed, the lowest first, after the short ones; 0: none.
+  double significance = 0;
+};
+
+/// The significance of an end branch, its erosion thickness: its length and the radius at its free end, less the radius
+/// at its junction. Source: Liu, Chambers, Letscher and Ju, "Extended grassfire transform on medial axes of 2D shapes"
+/// (2011), at the junction.
+double significance_of(const PlaneAxis& axis, const AxisBranch& branch);
+
+/// Whether the branch is an end branch.
+bool is_end_branch(const PlaneAxis& axis, const AxisBranch& branch);
+
+/// Removes end branches again and again; where a junction falls to degree 2, its branches are one. Each part of the
+/// axis keeps its connections and loops. Without short branches removed, each point of a medial disc that is lost is
+/// within `significance` of a disc that is left. Time: proportional to n log n for n arcs. Errors: kUsage (a number
+/// that is negative or not finite), kOutOfMemory.
+Result<PlaneAxis> prune_plane_axis(const PlaneAxis& axis, const PlanePruning& pruning);
+
+struct PlaneLongestPaths {
+  /// A branch for each part of the axis with two ends or more: the longest of the shortest paths between two ends.
+  /// Other parts, which consist of loops, are as before.
+  PlaneAxis axis;
+  /// No shortest path between ends is longer than the one that was found by more than this. 0 except in parts with many
+  /// loops and ends, where the search of other pairs ends after some 10^8 steps.
+  double excess = 0;
+};
+
+/// Errors: kOutOfMemory, kInterrupted.
+Result<PlaneLongestPaths> find_longest_paths(const PlaneAxis& axis, const std::stop_token& stop = {});
+
+/// A point of a branch.
+struct AxisSample {
+  PlanePoint point = {};
+  double radius = 0;
+  double object_angle = 0;  ///< Radians; between two arcs, the greater one.
+};
+
+/// The branch as a polyline from ends[0] to ends[1]. Between its points, point and radius are linear: each of these is
+/// within `step` of a point of the branch, and its radius within `step` of the radius there, and the other way round.
+/// Precondition: step > 0.
+std::vector<AxisSample> sample_branch(const PlaneAxis& axis, const AxisBranch& branch, double step);
+
+/// Averages the points of a polyline along its length, by a Gaussian whose standard deviation is `width`, in input
+/// units. Its ends stay, or those of a loop become one. No point moves by more than half its radius, and its radius
+/// becomes smaller by what it moves: the disc is still inside of the shape. Time: proportional to the number of points
+/// and to that of steps of a quarter of `width`. Precondition: width > 0.
+std::vector<AxisSample> smooth_polyline(const std::vector<AxisSample>& line, double width);
+
+}  // namespace medial_vk
