@@ -59,9 +59,9 @@ struct AxisSample {
 std::vector<AxisSample> sample_branch(const PlaneAxis& axis, const AxisBranch& branch, double step);
 
 /// Averages the points of a polyline along its length, by a Gaussian whose standard deviation is `width`, in input
-/// units. Its ends stay, or those of a loop become one. No point moves by more than half its radius, and its radius
-/// becomes smaller by what it moves: the disc is still inside of the shape. Time: proportional to the number of points
-/// and to that of steps of a quarter of `width`. Precondition: width > 0.
-std::vector<AxisSample> smooth_polyline(const std::vector<AxisSample>& line, double width);
+/// units. Its ends stay, except for those of a loop without a junction, `is_loop`, which is one point. No point moves by
+/// more than half its radius, and its radius becomes smaller by what it moves, so that the disc around it is still
+/// within that of the line. Precondition: width > 0.
+std::vector<AxisSample> smooth_polyline(const std::vector<AxisSample>& line, double width, bool is_loop = false);
 
 }  // namespace medial_vk

@@ -62,7 +62,7 @@ double length_of(const PlanePoint& p) { return std::hypot(p[0], p[1]); }
 /// A polyline in pieces of equal length, and beyond its ends: a loop goes round, others are turned about their ends.
 class EvenLine {
  public:
-  EvenLine(const std::vector<AxisSample>& line, double spacing) : is_loop_(line.front().point == line.back().point) {
+  EvenLine(const std::vector<AxisSample>& line, double spacing, bool is_loop) : is_loop_(is_loop) {
     double length = 0;
     for (std::size_t i = 1; i < line.size(); ++i) length += length_of(minus(line[i].point, line[i - 1].point));
     constexpr double kMostPieces = 1e6;
@@ -85,7 +85,6 @@ class EvenLine {
 
   std::ptrdiff_t pieces() const { return pieces_; }
   double spacing() const { return spacing_; }
-  bool is_loop() const { return is_loop_; }
   const AxisSample& operator[](std::ptrdiff_t i) const { return samples_[static_cast<std::size_t>(i)]; }
 
   PlanePoint point(std::ptrdiff_t i) const {
@@ -175,9 +174,9 @@ std::vector<AxisSample> sample_branch(const PlaneAxis& axis, const AxisBranch& b
   return line;
 }
 
-std::vector<AxisSample> smooth_polyline(const std::vector<AxisSample>& line, double width) {
+std::vector<AxisSample> smooth_polyline(const std::vector<AxisSample>& line, double width, bool is_loop) {
   if (line.size() < 2) return line;
-  const plane::EvenLine even(line, width / 4);
+  const plane::EvenLine even(line, width / 4, is_loop);
   if (!(even.spacing() > 0)) return line;
   // Short lines are straight long before a wider Gaussian is.
   const double most = even.spacing() * static_cast<double>(even.pieces());
@@ -185,7 +184,7 @@ std::vector<AxisSample> smooth_polyline(const std::vector<AxisSample>& line, dou
   std::vector<AxisSample> smooth;
   smooth.reserve(static_cast<std::size_t>(even.pieces()) + 1);
   for (std::ptrdiff_t i = 0; i <= even.pieces(); ++i) smooth.push_back(plane::averaged(even, i, weights));
-  if (!even.is_loop()) {
+  if (!is_loop) {
     smooth.front() = line.front();
     smooth.back() = line.back();
   } else {
