@@ -65,7 +65,7 @@ void Canvas::for_each_near(const Spot& centre, double radius, const What& what) 
   }
 }
 
-void Canvas::stroke(const Spot& a, const Spot& b, double radius, const Vector3f& at_a, const Vector3f& at_b) {
+void Canvas::stroke(const Spot& a, const Spot& b, double radius, const std::function<Vector3f(double)>& colour) {
   const Spot along = b - a;
   const double square = along.squaredNorm();
   const auto [left, right] = samples_between(std::min(a[0], b[0]) - radius, std::max(a[0], b[0]) + radius, width_);
@@ -84,7 +84,7 @@ void Canvas::stroke(const Spot& a, const Spot& b, double radius, const Vector3f&
       const Spot at(x + 0.5, y + 0.5);
       const double share = square > 0 ? std::clamp((at - a).dot(along) / square, 0.0, 1.0) : 0;
       if ((at - a - share * along).squaredNorm() > radius * radius) continue;
-      samples_[std::size_t{y} * width_ + x] = at_a + static_cast<float>(share) * (at_b - at_a);
+      samples_[std::size_t{y} * width_ + x] = colour(share);
     }
   }
 }

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -24,8 +25,8 @@ class Canvas {
 
   /// Blends a colour over a sample.
   void blend(std::uint32_t x, std::uint32_t y, const Eigen::Vector3f& colour, float opacity);
-  /// A stroke with round ends, its colour linear between the ends.
-  void stroke(const Spot& a, const Spot& b, double radius, const Eigen::Vector3f& at_a, const Eigen::Vector3f& at_b);
+  /// A stroke with round ends. `colour(share)` is that of its points, from a, 0, to b, 1.
+  void stroke(const Spot& a, const Spot& b, double radius, const std::function<Eigen::Vector3f(double)>& colour);
   void disc(const Spot& centre, double radius, const Eigen::Vector3f& colour, float opacity);
   void circle(const Spot& centre, double radius, double width, const Eigen::Vector3f& colour, float opacity);
 

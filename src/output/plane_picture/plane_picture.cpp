@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <tuple>
 #include <utility>
 
 #include "output/colours/colour_map.h"
@@ -19,7 +19,7 @@ using Eigen::Vector3f;
 using picture::Canvas;
 using picture::Spot;
 
-constexpr std::uint32_t kWidth = 1600, kLeastHeight = 600, kGreatestHeight = 1600, kBand = 170;
+constexpr std::uint32_t kWidth = 1600, kLeastHeight = 600, kGreatestHeight = 1500, kBand = 170;
 constexpr double kMargin = 0.04;
 const Vector3f kGlass(0.87f, 0.92f, 0.955f), kRim(0.42f, 0.53f, 0.63f), kInk(0.16f, 0.19f, 0.24f);
 constexpr std::size_t kMostDiscs = 60, kMostMarks = 400;
@@ -119,10 +119,8 @@ class PlanePainter {
     }
   }
 
-  Vector3f colour_of(const AxisSample& sample) const {
-    const double range = greatest_ - least_;
-    return branch_colour(range > 0 ? (coloured_value(record_, sample) - least_) / range : 0);
-  }
+  /// Of a value, from 0 to 1.
+  double place_in_range(double value) const { return greatest_ > least_ ? (value - least_) / (greatest_ - least_) : 0; }
 
   /// Thinner where there are many.
   double half_width() const {
@@ -132,16 +130,15 @@ class PlanePainter {
 
   void draw_branches() {
     const double width = half_width();
-    const Vector3f halo = Vector3f::Ones();
     for (const bool is_halo : {true, false}) {
       for (const auto& line : record_.lines) {
         for (std::size_t i = 1; i < line.size(); ++i) {
-          const Spot a = place(line[i - 1].point), b = place(line[i].point);
-          if (is_halo) {
-            canvas_.stroke(a, b, 1.55 * width, halo, halo);
-          } else {
-            canvas_.stroke(a, b, width, colour_of(line[i - 1]), colour_of(line[i]));
-          }
+          const double first = coloured_value(record_, line[i - 1]), last = coloured_value(record_, line[i]);
+          const auto colour = [&](double share) -> Vector3f {
+            if (is_halo) return Vector3f::Ones();
+            return branch_colour(place_in_range(first + share * (last - first)));
+          };
+          canvas_.stroke(place(line[i - 1].point), place(line[i].point), (is_halo ? 1.55 : 1) * width, colour);
         }
       }
     }
