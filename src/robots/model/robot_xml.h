@@ -8,15 +8,13 @@
 #include <string_view>
 
 #include "medial_vk/result.h"
+#include "xml_files/xml_document.h"
 
 namespace medial_vk {
 
 /// `format` is "URDF" or "SRDF", for messages. Afterwards, `document` has a root. Errors: kInvalidMesh, with the line.
 Status parse_robot_xml(std::string_view bytes, const std::string& name, const char* format,
                        tinyxml2::XMLDocument& document);
-
-/// kInvalidMesh, with the line of the element.
-Error element_error(const std::string& name, const tinyxml2::XMLElement& element, std::string_view what);
 
 /// Reads `text`, the value of an attribute, as so many finite numbers. Error: kInvalidMesh.
 Status read_numbers(const std::string& name, const tinyxml2::XMLElement& element, const char* attribute,
