@@ -152,6 +152,10 @@ function begin() {
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => drawing.request());
   setColour(plane.colour);
   window.medialVk = {plane, drawing, show, step};
+  // For tests: the page has been drawn.
+  requestAnimationFrame(() => requestAnimationFrame(() => {
+    Object.assign(document.documentElement.dataset, {ready: Math.ceil(performance.now()), complete: ''});
+  }));
 }
 
 begin();
