@@ -11,27 +11,28 @@
 
 namespace medial_vk {
 
-/// An end branch lies between a free end and a junction. A branch with two free ends is all that is left of its part of
-/// the axis, and stays; so do loops, and branches that leave the box that was searched.
+/// What is removed: a fire begins at all free ends, those that do not leave the box that was searched, and burns along
+/// the branches with unit speed. At a junction it waits for the fires of all branches but one, and goes on along that
+/// one. Loops do not burn, so each part of the axis keeps its connections and its loops; of a part that burns
+/// altogether the last node stays.
 struct PlanePruning {
-  /// In input units: end branches that are shorter are removed, the shortest first; 0: none.
+  /// In input units: branches stay from which the way outwards to an end is at least that long; 0: all stay.
   double length = 0;
-  /// In input units: end branches of a lower significance are removed, the lowest first, after the short ones; 0: none.
+  /// In input units: then, branches of at least this erosion thickness stay; 0: all. The fire begins at a time of the
+  /// radius of an end, and the erosion thickness is the time at which it has burned the branch, less the radius there.
+  /// Each point of a medial disc that is lost is within `significance` of a disc that is left. Source: Liu, Chambers,
+  /// Letscher and Ju, "Extended grassfire transform on medial axes of 2D shapes" (2011).
   double significance = 0;
 };
 
-/// The significance of an end branch, its erosion thickness: its length and the radius at its free end, less the radius
-/// at its junction. Source: Liu, Chambers, Letscher and Ju, "Extended grassfire transform on medial axes of 2D shapes"
-/// (2011), at the junction.
-double significance_of(const PlaneAxis& axis, const AxisBranch& branch);
-
-/// Whether the branch is an end branch.
+/// Whether an end of the branch is free.
 bool is_end_branch(const PlaneAxis& axis, const AxisBranch& branch);
 
-/// Removes end branches again and again; where a junction falls to degree 2, its branches are one. Each part of the
-/// axis keeps its connections and loops. Without short branches removed, each point of a medial disc that is lost is
-/// within `significance` of a disc that is left. Time: proportional to n log n for n arcs. Errors: kUsage (a number
-/// that is negative or not finite), kOutOfMemory.
+/// The erosion thickness of an end branch: its length and the radius at its free end, less the radius at the other one.
+double significance_of(const PlaneAxis& axis, const AxisBranch& branch);
+
+/// Where a junction loses all branches but two, these are one. Time: proportional to n log n for n arcs. Errors: kUsage
+/// (a number that is negative or not finite), kOutOfMemory.
 Result<PlaneAxis> prune_plane_axis(const PlaneAxis& axis, const PlanePruning& pruning);
 
 struct PlaneLongestPaths {
@@ -59,8 +60,8 @@ struct AxisSample {
 std::vector<AxisSample> sample_branch(const PlaneAxis& axis, const AxisBranch& branch, double step);
 
 /// Averages the points of a polyline along its length, by a Gaussian whose standard deviation is `width`, in input
-/// units. Its ends stay, except for those of a loop without a junction, `is_loop`, which is one point. No point moves by
-/// more than half its radius, and its radius becomes smaller by what it moves, so that the disc around it is still
+/// units. Its ends stay, except for those of a loop without a junction, `is_loop`, which is one point. No point moves
+/// by more than half its radius, and its radius becomes smaller by what it moves, so that the disc around it is still
 /// within that of the line. Precondition: width > 0.
 std::vector<AxisSample> smooth_polyline(const std::vector<AxisSample>& line, double width, bool is_loop = false);
 

@@ -39,10 +39,11 @@ What is computed:
       --mode certified  the exact axis, proved (the default)
 
 What is kept of it, in this order:
-      --prune-length L  remove end branches shorter than L, again and again
+      --prune-length L  without branches from which all ways outwards to an end
+                        are shorter than L
       --prune-significance S
-                        the same by erosion thickness: the length of an end
-                        branch, and by how much the radius falls along it
+                        without branches whose erosion thickness is below S: all
+                        that is lost is within S of the discs that stay
       --longest-path    a centre line: the longest of the shortest paths
                         between two ends, for each part
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <iterator>
 #include <tuple>
 
@@ -61,8 +62,25 @@ class PlaneSvg {
     return static_cast<int>(std::clamp(share, 0.0, 1.0) * (kColours - 1) + 0.5);
   }
 
+  /// With further points where the colour changes between two points.
+  std::vector<AxisSample> refined(const std::vector<AxisSample>& line) const {
+    std::vector<AxisSample> fine = {line.front()};
+    for (std::size_t i = 1; i < line.size(); ++i) {
+      const AxisSample &a = line[i - 1], &b = line[i];
+      const int parts = std::abs(colour_at(a, a) - colour_at(b, b)) + 1;
+      for (int k = 1; k < parts; ++k) {
+        const double t = static_cast<double>(k) / parts;
+        fine.push_back({{a.point[0] + t * (b.point[0] - a.point[0]), a.point[1] + t * (b.point[1] - a.point[1])},
+                        a.radius + t * (b.radius - a.radius),
+                        a.object_angle + t * (b.object_angle - a.object_angle)});
+      }
+      fine.push_back(b);
+    }
+    return fine;
+  }
+
   void add_branch(std::size_t b) {
-    const std::vector<AxisSample>& line = record_.lines[b];
+    const std::vector<AxisSample> line = refined(record_.lines[b]);
     add("<g id=\"branch-{}\">\n", b);
     for (std::size_t i = 1; i < line.size();) {
       const int colour = colour_at(line[i - 1], line[i]);

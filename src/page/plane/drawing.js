@@ -15,21 +15,24 @@ function ringsPath({boundary, rings}) {
   return path;
 }
 
-/** One path for each colour; and one of all. */
+/** One path for each colour. A piece whose colours differ at its ends is drawn in parts. */
 function axisPaths({samples, lines}, component, [least, greatest]) {
   const paths = Array.from({length: kColours}, () => new Path2D());
-  const colourAt = (i) => {
-    const value = (samples[kNumbers * i + component] + samples[kNumbers * (i + 1) + component]) / 2;
+  const colourOf = (value) => {
     const share = greatest > least ? (value - least) / (greatest - least) : 0;
     return Math.round(Math.min(1, Math.max(0, share)) * (kColours - 1));
   };
   for (let branch = 0; branch + 1 < lines.length; ++branch) {
     let colour = -1;
     for (let i = lines[branch]; i + 1 < lines[branch + 1]; ++i) {
-      const next = colourAt(i);
-      if (next !== colour) paths[next].moveTo(samples[kNumbers * i], samples[kNumbers * i + 1]);
-      colour = next;
-      paths[colour].lineTo(samples[kNumbers * (i + 1)], samples[kNumbers * (i + 1) + 1]);
+      const at = (k, share) => (1 - share) * samples[kNumbers * i + k] + share * samples[kNumbers * (i + 1) + k];
+      const parts = Math.abs(colourOf(at(component, 0)) - colourOf(at(component, 1))) + 1;
+      for (let part = 0; part < parts; ++part) {
+        const from = part / parts, to = (part + 1) / parts, next = colourOf(at(component, (from + to) / 2));
+        if (next !== colour) paths[next].moveTo(at(0, from), at(1, from));
+        colour = next;
+        paths[colour].lineTo(at(0, to), at(1, to));
+      }
     }
   }
   return paths;

@@ -6,7 +6,7 @@
 
 namespace medial_vk::plane {
 
-PlaneAxis axis_of_arcs(const PlaneAxis& axis, const std::vector<bool>& is_kept) {
+PlaneAxis axis_of_arcs(const PlaneAxis& axis, const std::vector<bool>& is_kept, const std::vector<bool>& stays) {
   PlaneAxis kept;
   kept.epsilon = axis.epsilon;
   kept.cells = axis.cells;
@@ -21,7 +21,8 @@ PlaneAxis axis_of_arcs(const PlaneAxis& axis, const std::vector<bool>& is_kept) 
     kept.arcs.push_back(axis.arcs[a]);
   }
   for (std::uint32_t n = 0; n < axis.nodes.size(); ++n) {
-    if (place[n] == kNone && axis.nodes[n].degree > 0) continue;
+    const bool is_alone = axis.nodes[n].degree == 0 || (!stays.empty() && stays[n]);
+    if (place[n] == kNone && !is_alone) continue;
     place[n] = static_cast<std::uint32_t>(kept.nodes.size());
     kept.nodes.push_back(axis.nodes[n]);
   }

@@ -59,6 +59,51 @@ PlanePoint plus(const PlanePoint& p, double share, const PlanePoint& q) {
 PlanePoint minus(const PlanePoint& p, const PlanePoint& q) { return plus(p, -1, q); }
 double length_of(const PlanePoint& p) { return std::hypot(p[0], p[1]); }
 
+/// A walk along a polyline, forwards.
+class Walk {
+ public:
+  explicit Walk(const std::vector<AxisSample>& line)
+      : line_(line), piece_(length_of(minus(line[1].point, line[0].point))) {}
+
+  /// The point at a length from the beginning.
+  AxisSample at(double length) {
+    go_to(length);
+    const AxisSample &a = line_[next_ - 1], &b = line_[next_];
+    const double share = share_at(length);
+    return {plus(a.point, share, minus(b.point, a.point)), a.radius + share * (b.radius - a.radius),
+            a.object_angle + share * (b.object_angle - a.object_angle)};
+  }
+
+  /// The integral of the way from the first point to the point, over the length up to there.
+  PlanePoint integral(double length) {
+    go_to(length);
+    return plus(sum_, 1, part_of_piece(share_at(length)));
+  }
+
+ private:
+  void go_to(double length) {
+    while (next_ + 1 < line_.size() && begin_ + piece_ < length) {
+      sum_ = plus(sum_, 1, part_of_piece(1));
+      begin_ += piece_;
+      ++next_;
+      piece_ = length_of(minus(line_[next_].point, line_[next_ - 1].point));
+    }
+  }
+
+  double share_at(double length) const { return piece_ > 0 ? std::min((length - begin_) / piece_, 1.0) : 1; }
+
+  PlanePoint part_of_piece(double share) const {
+    const PlanePoint &a = line_[next_ - 1].point, &b = line_[next_].point;
+    const PlanePoint middle = minus(plus(a, share / 2, minus(b, a)), line_.front().point);
+    return {share * piece_ * middle[0], share * piece_ * middle[1]};
+  }
+
+  const std::vector<AxisSample>& line_;
+  std::size_t next_ = 1;
+  double begin_ = 0, piece_;
+  PlanePoint sum_ = {0, 0};
+};
+
 /// A polyline in pieces of equal length, and beyond its ends: a loop goes round, others are turned about their ends.
 class EvenLine {
  public:
@@ -67,28 +112,19 @@ class EvenLine {
     for (std::size_t i = 1; i < line.size(); ++i) length += length_of(minus(line[i].point, line[i - 1].point));
     constexpr double kMostPieces = 1e6;
     pieces_ = static_cast<std::ptrdiff_t>(std::clamp(std::ceil(length / spacing), 4.0, kMostPieces));
-    samples_.reserve(static_cast<std::size_t>(pieces_) + 1);
-    std::size_t next = 1;
-    double begin = 0, piece = length_of(minus(line[1].point, line[0].point));
-    for (std::ptrdiff_t k = 0; k <= pieces_; ++k) {
-      const double at = length * static_cast<double>(k) / static_cast<double>(pieces_);
-      while (next + 1 < line.size() && begin + piece < at) {
-        begin += piece;
-        ++next;
-        piece = length_of(minus(line[next].point, line[next - 1].point));
-      }
-      samples_.push_back(between(line[next - 1], line[next], piece > 0 ? std::min((at - begin) / piece, 1.0) : 1));
-    }
-    samples_.back() = line.back();
     spacing_ = length / static_cast<double>(pieces_);
+    if (!(spacing_ > 0)) return;
+    set_samples(line);
+    set_means(line);
   }
 
   std::ptrdiff_t pieces() const { return pieces_; }
   double spacing() const { return spacing_; }
   const AxisSample& operator[](std::ptrdiff_t i) const { return samples_[static_cast<std::size_t>(i)]; }
 
-  PlanePoint point(std::ptrdiff_t i) const {
-    if (is_loop_) return (*this)[((i % pieces_) + pieces_) % pieces_].point;
+  /// The mean of the line over a spacing around a place, so that nothing shorter is overlooked.
+  PlanePoint mean(std::ptrdiff_t i) const {
+    if (is_loop_) return means_[static_cast<std::size_t>(((i % pieces_) + pieces_) % pieces_)];
     PlanePoint shift = {0, 0};
     double sign = 1;
     while (i < 0 || i > pieces_) {  // at most once for each passage of the line
@@ -97,16 +133,36 @@ class EvenLine {
       sign = -sign;
       i = 2 * end - i;
     }
-    return plus(shift, sign, (*this)[i].point);
+    return plus(shift, sign, means_[static_cast<std::size_t>(i)]);
   }
 
  private:
-  static AxisSample between(const AxisSample& a, const AxisSample& b, double share) {
-    return {plus(a.point, share, minus(b.point, a.point)), a.radius + share * (b.radius - a.radius),
-            a.object_angle + share * (b.object_angle - a.object_angle)};
+  void set_samples(const std::vector<AxisSample>& line) {
+    Walk walk(line);
+    samples_.reserve(static_cast<std::size_t>(pieces_) + 1);
+    for (std::ptrdiff_t k = 0; k < pieces_; ++k) samples_.push_back(walk.at(static_cast<double>(k) * spacing_));
+    samples_.push_back(line.back());
+  }
+
+  void set_means(const std::vector<AxisSample>& line) {
+    Walk walk(line);
+    means_.reserve(samples_.size());
+    PlanePoint before = {0, 0}, first = {0, 0};
+    for (std::ptrdiff_t k = 0; k < pieces_; ++k) {
+      const PlanePoint here = walk.integral((static_cast<double>(k) + 0.5) * spacing_);
+      if (k == 0) first = here;
+      const PlanePoint part = minus(here, before);
+      means_.push_back(k == 0 ? line.front().point : plus(line.front().point, 1 / spacing_, part));
+      before = here;
+    }
+    means_.push_back(line.back().point);
+    if (!is_loop_) return;
+    const PlanePoint rest = minus(walk.integral(static_cast<double>(pieces_) * spacing_), before);
+    means_.front() = plus(line.front().point, 1 / spacing_, plus(first, 1, rest));
   }
 
   std::vector<AxisSample> samples_;
+  std::vector<PlanePoint> means_;
   std::ptrdiff_t pieces_ = 0;
   double spacing_ = 0;
   bool is_loop_;
@@ -130,12 +186,12 @@ std::vector<double> weights_of(double width, double spacing) {
 
 AxisSample averaged(const EvenLine& line, std::ptrdiff_t i, const std::vector<double>& weights) {
   AxisSample sample = line[i];
+  // Of differences, so that far from 0 nothing is lost.
   PlanePoint shift = {0, 0};
-  for (std::size_t k = 1; k < weights.size(); ++k) {
+  for (std::size_t k = 0; k < weights.size(); ++k) {
     const auto off = static_cast<std::ptrdiff_t>(k);
-    for (const PlanePoint& p : {line.point(i - off), line.point(i + off)}) {
-      shift = plus(shift, weights[k], minus(p, sample.point));
-    }
+    shift = plus(shift, weights[k], minus(line.mean(i + off), sample.point));
+    if (k > 0) shift = plus(shift, weights[k], minus(line.mean(i - off), sample.point));
   }
   const double moved = length_of(shift), most = sample.radius / 2;
   if (moved > most) shift = {shift[0] * (most / moved), shift[1] * (most / moved)};

@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <queue>
 #include <tuple>
-#include <utility>
+#include <vector>
 
 #include "base/host_memory.h"
 #include "medial_vk/plane_centre_line.h"
@@ -13,122 +14,86 @@ namespace medial_vk {
 namespace plane {
 namespace {
 
-/// A branch, or two that became one.
-struct Piece {
-  std::array<std::uint32_t, 2> ends = {};
-  double length = 0;
-  std::array<std::uint32_t, 2> halves = {};  ///< Pieces, from the number of branches on.
-  bool is_there = true;
-};
-
 enum class Measure : std::uint8_t { kLength, kSignificance };
 
+/// A fire that begins at the free ends and burns along branches with unit speed. At a junction it waits for those of
+/// all branches but one, and goes on along that one with the latest time.
 class Pruner {
  public:
-  explicit Pruner(const PlaneAxis& axis) : axis_(axis), degree_(axis.nodes.size()), pieces_at_(axis.nodes.size()) {
-    pieces_.reserve(2 * axis.branches.size());
-    for (const AxisBranch& branch : axis.branches) pieces_.push_back({branch.ends, branch.length});
-    for (std::uint32_t p = 0; p < pieces_.size(); ++p) {
-      for (const std::uint32_t end : pieces_[p].ends) {
+  explicit Pruner(const PlaneAxis& axis)
+      : axis_(axis),
+        degree_(axis.nodes.size()),
+        time_(axis.nodes.size()),
+        branches_at_(axis.nodes.size()),
+        is_there_(axis.branches.size(), true),
+        is_last_(axis.nodes.size()) {
+    for (std::uint32_t b = 0; b < axis.branches.size(); ++b) {
+      for (const std::uint32_t end : axis.branches[b].ends) {
         ++degree_[end];
-        pieces_at_[end].push_back(p);
+        branches_at_[end].push_back(b);
       }
     }
   }
 
   void remove_below(double least, Measure measure) {
-    Queue queue;
-    for (std::uint32_t p = 0; p < pieces_.size(); ++p) offer(p, measure, queue);
+    const auto radius = [&](std::uint32_t n) { return measure == Measure::kLength ? 0 : axis_.nodes[n].radius; };
+    for (std::uint32_t n = 0; n < time_.size(); ++n) time_[n] = radius(n);
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    const auto offer_at = [&](std::uint32_t node) {
+      if (degree_[node] != 1 || axis_.nodes[node].kind == AxisNodeKind::kBorder) return;
+      const std::uint32_t b = *std::ranges::find_if(branches_at_[node], [&](std::uint32_t i) { return is_there_[i]; });
+      queue.emplace(time_[node] + axis_.branches[b].length - radius(other_end(b, node)), b, node);
+    };
+    for (std::uint32_t n = 0; n < time_.size(); ++n) offer_at(n);
     while (!queue.empty() && std::get<0>(queue.top()) < least) {
-      const std::uint32_t p = std::get<1>(queue.top());
+      const auto [value, b, from] = queue.top();
       queue.pop();
-      if (!pieces_[p].is_there || !is_end_piece(p)) continue;
-      const std::uint32_t junction = pieces_[p].ends[free_end(p) == 0 ? 1 : 0];
-      pieces_[p].is_there = false;
-      if (--degree_[junction] == 2) join(junction, measure, queue);
+      if (!is_there_[b]) continue;  // it burned from its other end
+      const std::uint32_t to = other_end(b, from);
+      is_there_[b] = false;
+      time_[to] = std::max(time_[to], time_[from] + axis_.branches[b].length);
+      --degree_[from];
+      if (--degree_[to] == 0) is_last_[to] = true;
+      offer_at(to);
     }
   }
 
-  std::vector<bool> kept_arcs() const {
+  PlaneAxis rest() const {
     std::vector<bool> kept(axis_.arcs.size());
-    std::vector<std::uint32_t> open;
-    for (std::uint32_t p = 0; p < pieces_.size(); ++p) {
-      if (pieces_[p].is_there) open.push_back(p);
+    for (std::size_t b = 0; b < axis_.branches.size(); ++b) {
+      for (const std::uint32_t arc : axis_.branches[b].arcs) kept[arc] = is_there_[b];
     }
-    while (!open.empty()) {
-      const std::uint32_t p = open.back();
-      open.pop_back();
-      if (p < axis_.branches.size()) {
-        for (const std::uint32_t arc : axis_.branches[p].arcs) kept[arc] = true;
-      } else {
-        open.insert(open.end(), pieces_[p].halves.begin(), pieces_[p].halves.end());
-      }
-    }
-    return kept;
+    return axis_of_arcs(axis_, kept, is_last_);
   }
 
  private:
-  /// The lowest measure first, of equal ones the piece that came first.
-  using Entry = std::tuple<double, std::uint32_t>;
-  using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
+  using Entry = std::tuple<double, std::uint32_t, std::uint32_t>;  // what counts, the branch, its free end
 
-  bool is_free(std::uint32_t node) const {
-    return degree_[node] == 1 && axis_.nodes[node].kind != AxisNodeKind::kBorder;
-  }
-  std::size_t free_end(std::uint32_t p) const { return is_free(pieces_[p].ends[0]) ? 0 : 1; }
-
-  bool is_end_piece(std::uint32_t p) const {
-    const auto& [a, b] = pieces_[p].ends;
-    return (is_free(a) && degree_[b] >= 3) || (is_free(b) && degree_[a] >= 3);
-  }
-
-  void offer(std::uint32_t p, Measure measure, Queue& queue) const {
-    if (!pieces_[p].is_there || !is_end_piece(p)) return;
-    double value = pieces_[p].length;
-    if (measure == Measure::kSignificance) {
-      const std::size_t end = free_end(p);
-      value += axis_.nodes[pieces_[p].ends[end]].radius - axis_.nodes[pieces_[p].ends[1 - end]].radius;
-    }
-    queue.emplace(value, p);
-  }
-
-  /// The two pieces at a node become one; a loop stays as it is.
-  void join(std::uint32_t node, Measure measure, Queue& queue) {
-    std::array<std::uint32_t, 2> two = {};
-    std::size_t count = 0;
-    for (const std::uint32_t p : pieces_at_[node]) {
-      if (pieces_[p].is_there && count < 2) two[count++] = p;
-    }
-    if (count < 2 || two[0] == two[1]) return;
-    std::array<std::uint32_t, 2> ends = {};
-    for (std::size_t k = 0; k < 2; ++k) {
-      Piece& half = pieces_[two[k]];
-      ends[k] = half.ends[half.ends[0] == node ? 1 : 0];
-      half.is_there = false;
-    }
-    const auto joined = static_cast<std::uint32_t>(pieces_.size());
-    pieces_.push_back({ends, pieces_[two[0]].length + pieces_[two[1]].length, two});
-    for (const std::uint32_t end : ends) pieces_at_[end].push_back(joined);
-    offer(joined, measure, queue);
+  std::uint32_t other_end(std::uint32_t branch, std::uint32_t node) const {
+    const auto& [a, b] = axis_.branches[branch].ends;
+    return a == node ? b : a;
   }
 
   const PlaneAxis& axis_;
-  std::vector<std::uint32_t> degree_;                  // by node, of what is there
-  std::vector<std::vector<std::uint32_t>> pieces_at_;  // by node, with those that are not there any more
-  std::vector<Piece> pieces_;
+  std::vector<std::uint32_t> degree_;  // by node, of what is there
+  std::vector<double> time_;           // by node, when the fire leaves it
+  std::vector<std::vector<std::uint32_t>> branches_at_;
+  std::vector<bool> is_there_;  // by branch
+  std::vector<bool> is_last_;   // by node: all that is left of its part
 };
 
 }  // namespace
 }  // namespace plane
 
 bool is_end_branch(const PlaneAxis& axis, const AxisBranch& branch) {
-  const AxisNode &a = axis.nodes[branch.ends[0]], &b = axis.nodes[branch.ends[1]];
-  return (plane::is_free_end(a) && b.degree >= 3) || (plane::is_free_end(b) && a.degree >= 3);
+  return std::ranges::any_of(branch.ends, [&](std::uint32_t n) { return plane::is_free_end(axis.nodes[n]); });
 }
 
 double significance_of(const PlaneAxis& axis, const AxisBranch& branch) {
   const AxisNode &a = axis.nodes[branch.ends[0]], &b = axis.nodes[branch.ends[1]];
-  return branch.length + (plane::is_free_end(a) ? a.radius - b.radius : b.radius - a.radius);
+  const double from_a = branch.length + a.radius - b.radius, from_b = branch.length + b.radius - a.radius;
+  if (plane::is_free_end(a) && plane::is_free_end(b)) return std::min(from_a, from_b);
+  return plane::is_free_end(a) ? from_a : from_b;
 }
 
 Result<PlaneAxis> prune_plane_axis(const PlaneAxis& axis, const PlanePruning& pruning) {
@@ -141,7 +106,7 @@ Result<PlaneAxis> prune_plane_axis(const PlaneAxis& axis, const PlanePruning& pr
     plane::Pruner pruner(axis);
     if (pruning.length > 0) pruner.remove_below(pruning.length, plane::Measure::kLength);
     if (pruning.significance > 0) pruner.remove_below(pruning.significance, plane::Measure::kSignificance);
-    return plane::axis_of_arcs(axis, pruner.kept_arcs());
+    return pruner.rest();
   });
 }
 
