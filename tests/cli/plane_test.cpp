@@ -81,7 +81,7 @@ TEST_F(PlaneCommand, PrunesToACentreLine) {
 }
 
 TEST_F(PlaneCommand, SlicesAMesh) {
-  write_file(scratch_.path("box.obj"), test::to_obj(test::make_box({-1, -2, 0}, {1, 2, 3})));
+  write_file(scratch_.path("box.obj"), test::to_obj(test::make_box({2, 4, 3})));
   const ToolResult slice = run({"box.obj", "--slice", "z=50%", "-o", "s.json", "--report", "r.json"});
   ASSERT_EQ(slice.exit_code, 0) << slice.err;
   EXPECT_THAT(slice.err, HasSubstr("box.obj: slice at z = 1.5"));
