@@ -11,9 +11,9 @@
 #include <thread>
 #include <vector>
 
+#include "cli/tool_test.h"
 #include "support/solids/mesh_files.h"
 #include "support/solids/solids.h"
-#include "tool_test.h"
 
 namespace medial_vk {
 namespace {
@@ -95,10 +95,13 @@ TEST_F(PlaneCommand, SlicesAMesh) {
 
 TEST_F(PlaneCommand, TheOutsideAndAnyNumberOfThreads) {
   write_file(scratch_.path("two.wkt"), "MULTIPOLYGON (((0 0, 1 0, 1 1, 0 1, 0 0)), ((3 0, 4 0, 4 1, 3 1, 3 0)))");
-  ASSERT_EQ(run({"two.wkt", "-q", "--side", "both", "--margin", "1", "-o", "one.json", "--threads", "1", "--check"})
+  ASSERT_EQ(run({"two.wkt", "-q", "--side", "both", "--margin", "1", "--object-angle", "0.3", "-o", "one.json",
+                 "--threads", "1", "--check"})
                 .exit_code,
             0);
-  ASSERT_EQ(run({"two.wkt", "-q", "--side", "both", "--margin", "1", "-o", "four.json", "--threads", "4"}).exit_code,
+  ASSERT_EQ(run({"two.wkt", "-q", "--side", "both", "--margin", "1", "--object-angle", "0.3", "-o", "four.json",
+                 "--threads", "4"})
+                .exit_code,
             0);
   EXPECT_EQ(read_file(scratch_.path("one.json")), read_file(scratch_.path("four.json")));
   bool has_border = false;
