@@ -97,6 +97,13 @@ class PlanePainter {
     }
   }
 
+  /// Large discs outside of the shape would cross the numbers.
+  bool has_room(const Spot& centre, double radius) const {
+    const double bottom = static_cast<double>(size_.height - kBand) * Canvas::kSamples;
+    return centre[0] >= radius && centre[0] + radius <= canvas_.width() && centre[1] >= radius &&
+           centre[1] + radius <= bottom;
+  }
+
   /// Discs that overlap little, the largest first.
   void draw_discs() {
     std::vector<const AxisSample*> order;
@@ -112,7 +119,7 @@ class PlanePainter {
       const auto overlaps = [&](const std::pair<Spot, double>& other) {
         return (other.first - centre).norm() < 0.75 * (other.second + radius);
       };
-      if (std::ranges::any_of(drawn, overlaps)) continue;
+      if (!has_room(centre, radius) || std::ranges::any_of(drawn, overlaps)) continue;
       drawn.emplace_back(centre, radius);
       canvas_.disc(centre, radius, Vector3f::Ones(), 0.22f);
       canvas_.circle(centre, radius, 2.2, kRim, 0.75f);

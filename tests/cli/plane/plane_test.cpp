@@ -105,7 +105,8 @@ TEST_F(PlaneCommand, TheOutsideAndAnyNumberOfThreads) {
             0);
   EXPECT_EQ(read_file(scratch_.path("one.json")), read_file(scratch_.path("four.json")));
   bool has_border = false;
-  for (const auto& node : json_of("one.json")["nodes"]) has_border = has_border || node["kind"] == "border";
+  const nlohmann::json graph = json_of("one.json");
+  for (const auto& node : graph["nodes"]) has_border = has_border || node["kind"] == "border";
   EXPECT_TRUE(has_border);
 }
 
