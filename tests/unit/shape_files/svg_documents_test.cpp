@@ -13,7 +13,6 @@ using shape_tests::fault_of_svg;
 using shape_tests::ring_of_svg;
 using shape_tests::shape_of;
 using shape_tests::shape_of_svg;
-using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -176,18 +175,15 @@ TEST(SvgUse, DepthIsLimited) {
   };
   EXPECT_EQ(area_of(shape_of_svg(chain(31))), 1);
   EXPECT_THAT(fault_of_svg(chain(32)), HasSubstr("it is within more than 32 other elements <use>"));
-  std::string deep = kUnit;
-  for (int i = 0; i < 200; ++i) deep = "<g>" + deep + "</g>";
-  EXPECT_THAT(fault_of_svg(deep), HasSubstr("nested too deeply"));
+  EXPECT_THAT(fault_of_svg(shape_tests::nested(200, "<g>", kUnit, "</g>")), HasSubstr("nested too deeply"));
 }
 
 /// 16 groups of 20 levels, each of which shows the next.
 TEST(SvgUse, DepthIsLimitedAcrossReferences) {
   std::string text;
   for (int i = 0; i < 16; ++i) {
-    std::string inner = i == 15 ? kUnit : "<use href='#g" + std::to_string(i + 1) + "'/>";
-    for (int k = 0; k < 20; ++k) inner = "<g>" + inner + "</g>";
-    text += "<g id='g" + std::to_string(i) + "'>" + inner + "</g>";
+    const std::string inner = i == 15 ? kUnit : "<use href='#g" + std::to_string(i + 1) + "'/>";
+    text += "<g id='g" + std::to_string(i) + "'>" + shape_tests::nested(20, "<g>", inner, "</g>") + "</g>";
   }
   EXPECT_THAT(fault_of_svg("<defs>" + text + "</defs><use href='#g0'/>"), HasSubstr("elements are nested too deeply"));
 }

@@ -1,4 +1,6 @@
 // Elements of SVG and commands of paths: the points that they stand for.
+#include <fmt/format.h>
+
 #include <numbers>
 
 #include "shape_files/svg/svg_path.h"
@@ -105,6 +107,25 @@ TEST(SvgPath, AWideArcIsNoUnitOfTheFlatness) {
   EXPECT_EQ(ring_of_path("M0 0A1e6 1e6 0 0 1 10 0V10H0Z").size(), 4u);
   const ShapeFile shape = shape_of_svg("<path d='M0 0A1e6 1e6 0 0 1 10 0V10H0Z'/>");
   EXPECT_NEAR(shape.flatness, 1e-3, 1e-8);
+}
+
+/// Whatever the radius, the arc stays within half of a chord from it, and the angle within that of the flags.
+TEST(SvgPath, ArcsOfAnyRadiusAreBounded) {
+  for (double radius = 10; radius < 1e300; radius *= 7) {
+    for (const char* flags : {"0 0", "0 1"}) {
+      const std::string arc = fmt::format("A{0} {0} 33 {1} 13 14", radius, flags);
+      const ShapeFile shape = shape_of_svg("<path d='M3 4" + arc + "L-5 30Z'/>");
+      EXPECT_LE(shape.flatness, 3e-3) << arc;
+      EXPECT_NEAR(area_of(shape), 170, 300 / radius + 0.05) << arc;  // two thirds of the chord times the bend
+    }
+  }
+}
+
+/// Nearly whole circles, as programs write them that cannot write a whole one.
+TEST(SvgPath, ArcsBetweenNearPointsMayBeLong) {
+  for (const char* gap : {"1e-3", "1e-6", "1e-9", "1e-12"}) {
+    EXPECT_NEAR(area_of(shape_of_svg(fmt::format("<path d='M0 0a2 2 0 1 1 {} 0Z'/>", gap))), 4 * kPi, 6e-3) << gap;
+  }
 }
 
 TEST(SvgPath, MistakesAreNamed) {
