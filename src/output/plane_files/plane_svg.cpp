@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <iterator>
 #include <tuple>
@@ -59,7 +60,7 @@ class PlaneSvg {
   int colour_at(const AxisSample& a, const AxisSample& b) const {
     const double value = (coloured_value(record_, a) + coloured_value(record_, b)) / 2;
     const double share = greatest_ > least_ ? (value - least_) / (greatest_ - least_) : 0;
-    return static_cast<int>(std::clamp(share, 0.0, 1.0) * (kColours - 1) + 0.5);
+    return static_cast<int>(std::lround(std::clamp(share, 0.0, 1.0) * (kColours - 1)));
   }
 
   /// With further points where the colour changes between two points.
