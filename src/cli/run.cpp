@@ -13,6 +13,7 @@
 #include "cli/follow/run_follow.h"
 #include "cli/help/help_texts.h"
 #include "cli/options/options.h"
+#include "cli/plane/run_plane.h"
 #include "cli/spheres/run_spheres.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/messages.h"
@@ -52,6 +53,7 @@ Command command_of(const std::vector<std::string>& arguments) {
   if (arguments[0] == "clearance") return Command::kClearance;
   if (arguments[0] == "follow") return Command::kFollow;
   if (arguments[0] == "curvature") return Command::kCurvature;
+  if (arguments[0] == "plane") return Command::kPlane;
   return arguments[0] == "doctor" ? Command::kDoctor : Command::kExtract;
 }
 
@@ -61,6 +63,7 @@ Status parse_and_run(Command command, const std::vector<std::string>& arguments)
   if (command == Command::kClearance) return run_clearance({arguments.begin() + 1, arguments.end()});
   if (command == Command::kFollow) return run_follow({arguments.begin() + 1, arguments.end()});
   if (command == Command::kCurvature) return run_curvature({arguments.begin() + 1, arguments.end()});
+  if (command == Command::kPlane) return run_plane({arguments.begin() + 1, arguments.end()});
   if (command == Command::kDoctor) return run_doctor({arguments.begin() + 1, arguments.end()});
   const Result<Options> options = parse_options(arguments);
   if (!options) return options.error();

@@ -21,6 +21,8 @@ function viridis(share) {
   return kViridis[below].map((c, i) => Math.round(c + (place - below) * (kViridis[below + 1][i] - c)));
 }
 
+export const viridisColour = (share) => css(viridis(share));
+
 /** 256 x 2 texels: the map of numbers, and the colours of sheets. */
 export function colourTexels() {
   const texels = new Uint8Array(4 * 512).fill(255);

@@ -30,6 +30,7 @@
 #include "medial_vk/part_fits.h"
 #include "medial_vk/penetration.h"
 #include "medial_vk/plane_axis.h"
+#include "medial_vk/plane_centre_line.h"
 #include "medial_vk/plane_shape.h"
 #include "medial_vk/plane_thesis.h"
 #include "medial_vk/pose.h"

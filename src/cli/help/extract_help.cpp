@@ -21,6 +21,8 @@ Usage:
                                or around it: medial-vk follow --help
   medial-vk curvature [options] BALLS   how the boundary bends, from its medial
                                balls: medial-vk curvature --help
+  medial-vk plane [options] SHAPE       the medial axis of a shape in the plane:
+                               medial-vk plane --help
   medial-vk doctor [options]   whether it works on this machine, and what is
                                missing: medial-vk doctor --help
 

@@ -14,6 +14,7 @@ std::string distance_help_text();
 std::string clearance_help_text();
 std::string follow_help_text();
 std::string curvature_help_text();
+std::string plane_help_text();
 std::string doctor_help_text();
 
 }  // namespace medial_vk::cli

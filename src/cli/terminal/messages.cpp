@@ -59,6 +59,7 @@ constexpr ParameterWords kParameterWords[] = {
     library_only("largest"),
     {"limit", {}, {}, {}, {}, "--limit"},
     library_only("links"),
+    {"margin", {}, {}, {}, {}, {}, {}, {}, "--margin"},
     {"max_gap", {}, "--max-gap", "--max-gap"},
     {"medial_mesh", "--medial-mesh", {}, {}},
     {"memory_budget",
@@ -73,7 +74,15 @@ constexpr ParameterWords kParameterWords[] = {
     {"method", {}, "--method", "--method"},
     {"mode", "--mode", {}, {}},
     library_only("nearest"),
-    {"object_angle", "--object-angle", "--object-angle", "--object-angle", {}, {}, {}, "--object-angle"},
+    {"object_angle",
+     "--object-angle",
+     "--object-angle",
+     "--object-angle",
+     {},
+     {},
+     {},
+     "--object-angle",
+     "--object-angle"},
     library_only("object_angles"),
     library_only("out"),
     library_only("pairs"),
@@ -84,7 +93,7 @@ constexpr ParameterWords kParameterWords[] = {
     of_follow("protrusion", "--protrusion"),
     library_only("queries"),
     library_only("query_error"),
-    {"radius", "--radius", "the radius threshold", "the radius threshold"},
+    {"radius", "--radius", "the radius threshold", "the radius threshold", {}, {}, {}, {}, "--radius"},
     library_only("removal_orders"),
     {"resolution",
      "--resolution",
@@ -96,10 +105,13 @@ constexpr ParameterWords kParameterWords[] = {
      "--resolution"},
     of_follow("renewal_factor", "--renew-factor"),
     of_follow("renewed", "--renew"),
+    library_only("rings"),
     library_only("rotation"),
     library_only("samples"),
     library_only("sheets"),
     of_follow("shrunk", "--shrunk"),
+    library_only("site_of_point"),
+    library_only("site_of_segment"),
     library_only("sphere"),
     {"threads", "--threads", "--threads", "--threads", {}, {}, {}, "--threads"},
     {"tolerance", {}, {}, {}, {}, "--tolerance"},
@@ -128,6 +140,8 @@ std::string_view words_of(const ParameterWords& parameter, Command command) {
       return parameter.follow;
     case Command::kCurvature:
       return {};  // messages about curvature name no parameter
+    case Command::kPlane:
+      return parameter.plane;
     case Command::kDoctor:
       return parameter.doctor;
   }
@@ -149,6 +163,8 @@ const char* name_of(Command command) {
       return "medial-vk follow";
     case Command::kCurvature:
       return "medial-vk curvature";
+    case Command::kPlane:
+      return "medial-vk plane";
     case Command::kDoctor:
       return "medial-vk doctor";
   }

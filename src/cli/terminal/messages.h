@@ -22,6 +22,7 @@ enum class Command {
   kClearance,     ///< medial-vk clearance
   kFollow,        ///< medial-vk follow
   kCurvature,     ///< medial-vk curvature
+  kPlane,         ///< medial-vk plane
   kDoctor,        ///< medial-vk doctor
 };
 
@@ -34,6 +35,7 @@ struct ParameterWords {
   std::string_view distance = {};   ///< Of few.
   std::string_view clearance = {};  ///< Of few; empty: that of distance.
   std::string_view follow = {};     ///< Of few.
+  std::string_view plane = {};      ///< Of few.
 };
 
 /// Every parameter that messages of the library name.

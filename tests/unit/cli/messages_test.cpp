@@ -127,6 +127,7 @@ TEST(Messages, AUsageErrorPointsAtTheHelpOfItsCommand) {
   EXPECT_EQ(printed(Command::kDistance), "medial-vk: no\nTry medial-vk distance --help.\n");
   EXPECT_EQ(printed(Command::kClearance), "medial-vk: no\nTry medial-vk clearance --help.\n");
   EXPECT_EQ(printed(Command::kCurvature), "medial-vk: no\nTry medial-vk curvature --help.\n");
+  EXPECT_EQ(printed(Command::kPlane), "medial-vk: no\nTry medial-vk plane --help.\n");
   EXPECT_EQ(printed(Command::kDoctor), "medial-vk: no\nTry medial-vk doctor --help.\n");
 }
 
@@ -161,6 +162,7 @@ TEST(Messages, WordsNameOptionsOfTheirCommand) {
   const std::set<std::string> of_distance = options_in(distance_help_text());
   const std::set<std::string> of_clearance = options_in(clearance_help_text());
   const std::set<std::string> of_follow = options_in(follow_help_text());
+  const std::set<std::string> of_plane = options_in(plane_help_text());
   for (const ParameterWords& parameter : parameter_words()) {
     EXPECT_THAT(of_extract, testing::IsSupersetOf(options_in(std::string(parameter.extract))));
     EXPECT_THAT(of_spheres, testing::IsSupersetOf(options_in(std::string(parameter.spheres))));
@@ -169,6 +171,7 @@ TEST(Messages, WordsNameOptionsOfTheirCommand) {
     EXPECT_THAT(of_distance, testing::IsSupersetOf(options_in(std::string(parameter.distance))));
     EXPECT_THAT(of_clearance, testing::IsSupersetOf(options_in(std::string(parameter.distance))));
     EXPECT_THAT(of_follow, testing::IsSupersetOf(options_in(std::string(parameter.follow))));
+    EXPECT_THAT(of_plane, testing::IsSupersetOf(options_in(std::string(parameter.plane))));
     EXPECT_THAT(of_clearance, testing::IsSupersetOf(options_in(std::string(parameter.clearance))));
   }
 }
