@@ -36,7 +36,9 @@ What is computed:
                         radians (default 0.6)
       --radius R        points of at least this radius need 0.15 only
                         (default: off)
-      --mode certified  the exact axis, proved (the default)
+      --mode certified|thesis
+                        the exact axis, proved (default), or points of it as
+                        Chapter 4 of the source publishes
 
 What is kept of it, in this order:
       --prune-length L  without branches from which all ways outwards to an end

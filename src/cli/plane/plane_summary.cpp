@@ -12,8 +12,17 @@ namespace medial_vk::cli {
 namespace {
 
 std::string axis_text(const PlaneCounts& counts) {
-  return fmt::format("{}, {}, {}", counted(counts.branches, "branch", "branches"),
-                     counted(counts.junctions, "junction", "junctions"), counted(counts.ends, "end", "ends"));
+  std::string text =
+      fmt::format("{}, {}, {}", counted(counts.branches, "branch", "branches"),
+                  counted(counts.junctions, "junction", "junctions"), counted(counts.ends, "end", "ends"));
+  if (counts.points > 0) text += ", " + counted(counts.points, "single point", "single points");
+  return text;
+}
+
+std::string cover_text(const PublishedCover& cover) {
+  return fmt::format("{} with {} samples, {} undetermined; can miss object angles up to {:.3g} and radii up to {:.4g}",
+                     counted(cover.discs, "disc", "discs"), cover.samples, grouped(cover.undetermined),
+                     cover.missed_angle, cover.missed_radius);
 }
 
 /// What was left out of the axis that was found.
@@ -39,7 +48,11 @@ std::string plane_summary(const PlaneRecord& record, const std::vector<StageTime
   for (const std::string& assumption : record.assumptions) text += labelled("note", assumption);
   const PlaneCounts counts = counts_of(record);
   text += labelled("axis", is_reduced(record) ? kept_text(record) : axis_text(counts));
-  text += labelled("length", fmt::format("{:.6g}", counts.length));
+  if (record.published) {
+    text += labelled("as published", cover_text(*record.published));
+  } else {
+    text += labelled("length", fmt::format("{:.6g}", counts.length));
+  }
   text += labelled("radius", fmt::format("{:.6g} to {:.6g}", counts.least_radius, counts.greatest_radius));
   text += labelled("epsilon", fmt::format("{:.3g}", record.axis.epsilon));
   text += labelled("time", times_text(times, verbose));
@@ -82,6 +95,7 @@ std::string plane_report(const PlaneRecord& record, const std::vector<StageTime>
                                      {"branches", counts.branches},
                                      {"junctions", counts.junctions},
                                      {"ends", counts.ends},
+                                     {"points", counts.points},
                                      {"arcs", record.axis.arcs.size()},
                                      {"length", counts.length},
                                      {"least_radius", counts.least_radius},
@@ -89,6 +103,14 @@ std::string plane_report(const PlaneRecord& record, const std::vector<StageTime>
                                      {"longest_excess", record.longest_excess},
                                      {"epsilon", record.axis.epsilon},
                                      {"cells", record.axis.cells}}}};
+  report["options"]["mode"] = record.published ? "thesis" : "certified";
+  if (const std::optional<PublishedCover>& cover = record.published) {
+    report["published"] = {{"samples", cover->samples},
+                           {"discs", cover->discs},
+                           {"undetermined", cover->undetermined},
+                           {"missed_angle", cover->missed_angle},
+                           {"missed_radius", cover->missed_radius}};
+  }
   for (const StageTime& time : times) report["seconds"][time.stage] = time.seconds;
   return report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -16,6 +16,7 @@
 #include "cli/terminal/progress.h"
 #include "cli/terminal/tables.h"
 #include "medial_vk/plane_centre_line.h"
+#include "medial_vk/plane_thesis.h"
 #include "output/atomic_files/atomic_file.h"
 #include "output/page/page.h"
 #include "output/plane_files/plane_files.h"
@@ -87,7 +88,9 @@ class PlaneRun {
       progress_.update("axis", done);
       if (interrupted()) stop.request_stop();
     };
-    Result<PlaneAxis> axis = find_plane_axis(record_.shape, record_.options, on_progress, stop.get_token());
+    Result<PlaneAxis> axis = options_.mode == PlaneMode::kThesis
+                                 ? find_as_published(on_progress, stop.get_token())
+                                 : find_plane_axis(record_.shape, record_.options, on_progress, stop.get_token());
     progress_.clear();
     if (!axis && axis.error().code == ErrorCode::kInterrupted) return stopped();
     if (!axis) return axis.error();
@@ -95,6 +98,27 @@ class PlaneRun {
     record_.branches_found = record_.axis.branches.size();
     times_.push_back({"axis", stopwatch.lap()});
     return {};
+  }
+
+  /// Points, as nodes without arcs.
+  Result<PlaneAxis> find_as_published(const ProgressCallback& progress, const std::stop_token& stop) {
+    PlaneThesisOptions how;
+    how.object_angle = record_.options.object_angle;
+    how.radius = record_.options.radius;
+    how.threads = record_.options.threads;
+    how.epsilon = 0x1p-30 * record_.shape.report.longest_side();
+    const Result<PublishedAxis> found = find_plane_axis_as_published(record_.shape, how, progress, stop);
+    if (!found) return found.error();
+    const PublishedAxis& published = found.value();
+    record_.published = PublishedCover{published.samples, published.discs, published.undetermined,
+                                       published.missed_angle, published.missed_radius};
+    PlaneAxis axis;
+    axis.epsilon = how.epsilon;
+    axis.nodes.reserve(published.points.size());
+    for (const PublishedPoint& p : published.points) {
+      axis.nodes.push_back({p.point, p.radius, p.object_angle, AxisNodeKind::kMeeting, 0});
+    }
+    return axis;
   }
 
   /// Brute force cannot be stopped half-way, but nothing is lost if the process ends.

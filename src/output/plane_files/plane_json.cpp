@@ -189,6 +189,11 @@ std::string encode_plane_csv(const PlaneRecord& record) {
       fmt::format_to(std::back_inserter(csv), "{},{},{},{},{}\n", s.point[0], s.point[1], s.radius, s.object_angle, b);
     }
   }
+  for (const AxisNode& node : record.axis.nodes) {  // as the centre of a disc is
+    if (node.degree > 0) continue;
+    fmt::format_to(std::back_inserter(csv), "{},{},{},{},-1\n", node.point[0], node.point[1], node.radius,
+                   node.object_angle);
+  }
   return csv;
 }
 

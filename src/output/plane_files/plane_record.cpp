@@ -76,6 +76,8 @@ PlaneCounts counts_of(const PlaneRecord& record) {
   counts.junctions = record.axis.junctions();
   counts.ends = static_cast<std::uint64_t>(
       std::ranges::count_if(record.axis.nodes, [](const AxisNode& node) { return node.degree == 1; }));
+  counts.points = static_cast<std::uint64_t>(
+      std::ranges::count_if(record.axis.nodes, [](const AxisNode& node) { return node.degree == 0; }));
   counts.least_radius = std::numeric_limits<double>::infinity();
   const auto include = [&](double radius) {
     counts.least_radius = std::min(counts.least_radius, radius);

@@ -16,6 +16,13 @@ namespace medial_vk {
 
 enum class PlaneColour : std::uint8_t { kRadius, kAngle };
 
+/// Of `--mode thesis`: the cover of discs, and what it can miss.
+struct PublishedCover {
+  unsigned samples = 0;  ///< Of each circle.
+  std::uint64_t discs = 0, undetermined = 0;
+  double missed_angle = 0, missed_radius = 0;  ///< As in PublishedAxis.
+};
+
 struct PlaneRecord {
   std::string input;
   std::string format;  ///< "SVG", "slice at z = 0.3".
@@ -29,8 +36,9 @@ struct PlaneRecord {
   double smooth = 0;
   double step = 0;
   PlaneColour colour = PlaneColour::kRadius;
-  std::uint64_t branches_found = 0;  ///< Before any are left out.
-  PlaneAxis axis;
+  std::uint64_t branches_found = 0;            ///< Before any are left out.
+  PlaneAxis axis;                              ///< As published: nodes alone.
+  std::optional<PublishedCover> published;     ///< If the axis was found as published.
   std::vector<std::vector<AxisSample>> lines;  ///< By branch.
   bool y_is_down = false;
   std::optional<std::array<double, 4>> view_box;  ///< Of an SVG: x, y, width, height.
@@ -56,7 +64,8 @@ const char* name_of(FillRule rule);  ///< "nonzero" or "evenodd", as options say
 
 struct PlaneCounts {
   std::uint64_t branches = 0, junctions = 0, ends = 0;
-  double length = 0;  ///< Of all branches.
+  std::uint64_t points = 0;  ///< On no branch.
+  double length = 0;         ///< Of all branches.
   double least_radius = 0, greatest_radius = 0;
 };
 PlaneCounts counts_of(const PlaneRecord& record);

@@ -41,6 +41,7 @@ class PlanePainter {
     draw_glass();
     draw_discs();
     draw_branches();
+    draw_single_points();
     draw_marks();
     Picture out = canvas_.picture();
     write_numbers(out);
@@ -151,10 +152,20 @@ class PlanePainter {
     }
   }
 
+  /// On no branch: in the colours of branches.
+  void draw_single_points() {
+    const double range = greatest_ > least_ ? greatest_ - least_ : 1;
+    for (const AxisNode& node : record_.axis.nodes) {
+      if (node.degree > 0) continue;
+      const double value = record_.colour == PlaneColour::kRadius ? node.radius : node.object_angle;
+      canvas_.disc(place(node.point), half_width(), branch_colour((value - least_) / range), 1);
+    }
+  }
+
   /// Junctions as rings, ends as dots; none where they would cover the branches.
   void draw_marks() {
     const auto& nodes = record_.axis.nodes;
-    const auto is_marked = [](const AxisNode& n) { return n.degree != 2; };
+    const auto is_marked = [](const AxisNode& n) { return n.degree != 2 && n.degree != 0; };
     if (static_cast<std::size_t>(std::ranges::count_if(nodes, is_marked)) > kMostMarks) return;
     const double width = half_width();
     for (const AxisNode& node : nodes) {

@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -53,6 +56,32 @@ TEST_F(PlaneCommand, WritesTheGraphAndTellsOfIt) {
   EXPECT_EQ(report["axis"]["junctions"], 2);
   EXPECT_NEAR(report["axis"]["length"].get<double>(), 1.5 + 3 * std::numbers::sqrt2, 1e-9);
   EXPECT_NEAR(report["axis"]["greatest_radius"].get<double>(), 0.75, 1e-9);
+}
+
+TEST_F(PlaneCommand, FindsPointsAsPublished) {
+  write_file(scratch_.path("plate.csv"), kRectangle);
+  const ToolResult result =
+      run({"plate.csv", "--mode", "thesis", "-o", "a.csv", "--report", "r.json", "--picture", "a.png"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("can miss object angles up to"));
+  const auto report = json_of("r.json");
+  EXPECT_EQ(report["options"]["mode"], "thesis");
+  EXPECT_GT(report["published"]["discs"], 1000);
+  std::istringstream lines(read_file(scratch_.path("a.csv")));
+  std::string line;
+  std::getline(lines, line);
+  std::size_t points = 0;
+  for (; std::getline(lines, line); ++points) {
+    double x = 0, y = 0, radius = 0;
+    ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf", &x, &y, &radius), 3) << line;
+    // Of the five branches of a rectangle, each point is equally far from two sides.
+    const double across = std::min(x, 3 - x), along = std::min(y, 1.5 - y);
+    EXPECT_NEAR(radius, std::min(across, along), 1e-8) << line;
+    EXPECT_TRUE(std::fabs(across - along) < 1e-8 || (std::fabs(y - 0.75) < 1e-8 && across > 0.75)) << line;
+    EXPECT_TRUE(line.ends_with(",-1")) << line;
+  }
+  EXPECT_EQ(points, report["axis"]["points"]);
+  EXPECT_GT(points, 100u);
 }
 
 TEST_F(PlaneCommand, EveryFormatAndEveryStream) {

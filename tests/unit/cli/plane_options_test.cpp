@@ -125,6 +125,16 @@ TEST(PlaneOptions, SaysWhatIsWrong) {
   EXPECT_THAT(plane_message({"a.svg", "-q", "-v"}), HasSubstr("cannot be used together"));
 }
 
+TEST(PlaneOptions, AsPublishedThereArePointsInsideAlone) {
+  const auto options = parse_plane_options({"a.svg", "--mode", "thesis"});
+  ASSERT_TRUE(options.ok());
+  EXPECT_EQ(options.value().mode, PlaneMode::kThesis);
+  EXPECT_THAT(plane_message({"a.svg", "--mode", "thesis", "--side", "both"}), HasSubstr("the inside only"));
+  EXPECT_THAT(plane_message({"a.svg", "--mode", "thesis", "--longest-path"}), HasSubstr("are about branches"));
+  EXPECT_THAT(plane_message({"a.svg", "--mode", "thesis", "--prune-length", "1"}), HasSubstr("are about branches"));
+  EXPECT_THAT(plane_message({"a.svg", "--mode", "thesis", "--check"}), HasSubstr("can miss points"));
+}
+
 TEST(PlaneOptions, HelpIsNarrowAndNamesEveryOption) {
   std::istringstream lines(plane_help_text());
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;

@@ -67,7 +67,7 @@ PlaneAxis in_input(const Diagram& diagram, const SiteSet& sites, const DiagramQu
   }
   axis.cells = diagram.cells;
   const double across = tie(1) / std::sin(query.least_angle(1));  // of points that are accepted as equally far
-  axis.epsilon = frame.scale() * std::max({diagram.clustered, kEpsilon, across});
+  axis.epsilon = frame.scale() * std::max({diagram.clustered, kEpsilon, across}) + frame.rounding();
   set_branches(axis);
   return axis;
 }

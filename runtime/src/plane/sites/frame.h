@@ -44,6 +44,8 @@ class Frame {
   /// The nearest coordinates that are the image of input coordinates.
   Vec2 representable(Vec2 x) const { return to_unit(to_input(x)); }
   double scale() const { return scale_; }
+  /// Of to_input(), at most, as a length.
+  double rounding() const { return 0x1p-52 * (std::max(std::fabs(centre_.x), std::fabs(centre_.y)) + scale_); }
 
  private:
   static constexpr double kLeast = 0x1p-900;

@@ -61,7 +61,7 @@ void declare_plane(CLI::App& app, PlaneCommandOptions& options, LengthTexts& len
   add.text("--step", "length", lengths.step);
   add.choice<PlaneColour>("--colour", {{"radius", PlaneColour::kRadius}, {"angle", PlaneColour::kAngle}},
                           options.colour);
-  add.choice<PlaneMode>("--mode", {{"certified", PlaneMode::kCertified}}, options.mode);
+  add.choice<PlaneMode>("--mode", {{"certified", PlaneMode::kCertified}, {"thesis", PlaneMode::kThesis}}, options.mode);
   add.flag("--check", options.check);
   add.whole("--threads", 0, 1024, " threads", options.threads);
   add.flag("-q,--quiet", options.quiet);
@@ -106,6 +106,20 @@ Status check_plane_lengths(const LengthTexts& texts, const PlaneCommandOptions& 
   if (!(options.step.value > 0) || (options.step.is_share && options.step.value < kLeastStep)) {
     return usage_error(fmt::format("--step is less than {:g} % of the longest side", 100 * kLeastStep));
   }
+  return {};
+}
+
+/// As published, the axis is points without branches, inside.
+Status check_plane_mode(const PlaneCommandOptions& options) {
+  if (options.mode != PlaneMode::kThesis) return {};
+  if (options.side != PlaneSide::kInside) return usage_error("--mode thesis searches the inside only");
+  if (options.prune_length.value > 0 || options.prune_significance.value > 0 || options.longest_path ||
+      options.smooth.value > 0) {
+    return usage_error(
+        "--mode thesis gives points: --prune-length, --prune-significance, --longest-path and --smooth "
+        "are about branches");
+  }
+  if (options.check) return usage_error("--check is about the exact axis: --mode thesis can miss points");
   return {};
 }
 
@@ -168,6 +182,7 @@ Result<PlaneCommandOptions> PlaneOptionParser::parse(const std::vector<std::stri
   if (!options.slice.empty() && options.flatness.value > 0) {
     return usage_error("--flatness is about curves of SVG: a slice has none");
   }
+  if (Status status = check_plane_mode(options); !status) return status.error();
   if (options.output.empty()) options.output = default_plane_output(options.shape);
   if (Status status = check_plane_files(options); !status) return status.error();
   return options;

@@ -16,7 +16,7 @@ namespace medial_vk::cli {
 
 enum class PlaneFormat { kJson, kGeoJson, kSvg, kCsv };
 
-enum class PlaneMode { kCertified };
+enum class PlaneMode { kCertified, kThesis };
 
 /// "2.5", in units of the shape, or "3%", of its longest side.
 struct PlaneLength {
