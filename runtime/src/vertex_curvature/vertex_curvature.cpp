@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kMost = 1e18;    // as of measure_curvature()
 constexpr double kMostPath = 12;  // spacings, along edges
-constexpr std::size_t kCapVertices = 40;
+constexpr std::size_t kCapNodes = 40;
 constexpr std::size_t kVerticesAtATime = 64;
 constexpr double kUncertainError = 0.25;  // as of measure_curvature()
 
@@ -84,9 +84,11 @@ class AlongSurface {
     VertexCurvature of_mean = mean.is_found ? unknown(mean) : VertexCurvature{};
     if (agrees) of_mean = of_tips(mean);
     if (is_known(of_mean.state) && !mean.is_outside) return of_mean;
-    walk_.find_vertices(kCapVertices);
-    around_.clear();
-    for (const std::uint32_t near : walk_.vertices()) around_.push_back(surface_.mesh().vertices[near]);
+    walk_.find_nodes(kCapNodes);
+    around_.assign(1, p);
+    for (const std::uint32_t near : walk_.nodes()) {
+      if (surface_.graph().vertex(near) != vertex) around_.push_back(surface_.place(near));
+    }
     const Touch touch = touching_.at(p, around_);
     if (touch.state == CurvatureState::kFew) {
       // Beyond the last tips, the normal of the mesh tells whether the boundary goes on as they say.
