@@ -69,7 +69,7 @@ void add_curvature(BoundaryFields& fields, std::span<const VertexCurvature> of_v
 
 std::string_view state_name(CurvatureState state) {
   constexpr std::array<std::string_view, kCurvatureStates> kNames = {
-      "known", "cut", "curve", "point", "seam", "few", "nested", "focal", "uncertain", "exposed"};
+      "known", "cut", "curve", "point", "seam", "few", "nested", "focal", "uncertain", "exposed", "edge"};
   return kNames[static_cast<std::size_t>(state)];
 }
 

@@ -59,6 +59,6 @@ void add_curvature(BoundaryFields& fields, std::span<const VertexCurvature> of_v
 
 /// "known", "cut" and so on: the words of the files for the numbers of a state.
 std::string_view state_name(CurvatureState state);
-inline constexpr std::size_t kCurvatureStates = 10;
+inline constexpr std::size_t kCurvatureStates = 11, kTipStates = 10;  ///< Tips have all but the last one.
 
 }  // namespace medial_vk

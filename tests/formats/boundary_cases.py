@@ -63,7 +63,7 @@ def expect_sense(points, triangles, data):
     for name in VECTORS:
         assert np.abs(np.linalg.norm(data[name][both], axis=1) - 1).max() < 1e-12
     assert np.abs(np.sum(data["direction_1"][both] * data["direction_2"][both], axis=1)).max() < 1e-9
-    assert set(np.unique(data["curvature_state"])) <= set(range(9)) and data["sheet"].min() >= -1
+    assert set(np.unique(data["curvature_state"])) <= set(range(11)) and data["sheet"].min() >= -1
 
 
 def expect_same(found, wanted):

@@ -60,6 +60,9 @@ enum class CurvatureState : std::uint8_t {
   /// direction of a part of its sphere that no other ball covers, and `normal_error` the greatest angle in that part.
   /// Where tips around it allow a fit, spoke and curvatures are those of the fit; otherwise the curvatures are NaN.
   kExposed,
+  /// Of vertices alone. Unknown: the vertex is at an edge of the solid, or beyond the last tips of a sheet that does
+  /// not end in a cap there.
+  kEdge,
 };
 
 /// True for the states in which both curvatures and the spoke are values from fits or differences along a sheet.
