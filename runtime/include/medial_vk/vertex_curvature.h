@@ -62,11 +62,11 @@ struct VertexCurvature {
 /// At each vertex of the mesh, from the balls and what measure_curvature() found of them, by either method. The mesh
 /// and the balls are in the same units. A tip counts for a vertex only if a path along the surface joins them, and if
 /// their normals differ by less than 66 degrees: what lies on the other side of a wall never does. (kVoronoi: if they
-/// differ by less than 90 degrees.) Time: some 0.1 ms a vertex where
-/// vertices are about as far apart as balls; more where they are denser, as the vertices of a window are passed for
-/// each. `progress` may be called on any thread, on one at a time, with the stages "tips on the mesh" and "vertices".
-/// Does not throw. Errors: kUsage (a ball or a vertex with a number that is not finite or beyond 1e18, a radius that is
-/// not positive, numbers of balls that differ, 2^31 balls or more, an option out of range), kInterrupted, kOutOfMemory.
+/// differ by less than 90 degrees.) Time: some 0.05 ms of one core
+/// for a vertex, however dense vertices are. `progress` may be called on any thread, on one at a time, with the stages
+/// "tips on the mesh" and "vertices". Does not throw. Errors: kUsage (a ball or a vertex with a number that is not
+/// finite or beyond 1e18, a radius that is not positive, numbers of balls that differ, 2^31 balls or more, an option
+/// out of range), kInterrupted, kOutOfMemory.
 Result<std::vector<VertexCurvature>> curvature_at_vertices(const IndexedMesh& mesh, std::span<const Ball> balls,
                                                            const BoundaryCurvature& curvature,
                                                            const VertexCurvatureOptions& options = {},

@@ -6,10 +6,10 @@ namespace medial_vk {
 namespace {
 
 constexpr std::size_t kSteps = kWindows.size();
-constexpr double kSameSide = 0.7;     // of spokes of tips that are compared
+constexpr double kSameSide = 0.7;      // of spokes of tips that are compared
 constexpr double kAnchorShare = 0.16;  // of a window's radius: how far patches are apart
-constexpr double kBlendShare = 0.3;   // within which they are blended
-constexpr double kLeastReach = 10.0;  // spacings from a tip to others whose windows tell what is usual
+constexpr double kBlendShare = 0.3;    // within which they are blended
+constexpr double kLeastReach = 10.0;   // spacings from a tip to others whose windows tell what is usual
 
 double angle_of(const Point& a, const Point& b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
 

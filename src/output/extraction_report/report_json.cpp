@@ -269,9 +269,8 @@ Json curvature_json(const std::optional<CurvatureRecord>& record) {
     return {{"least", of->least}, {"greatest", of->greatest}};
   };
   Json states = Json::object();
-  for (std::size_t i = 0; i < kCurvatureStates; ++i) {
+  for (std::size_t i = 0; i < kCurvatureStates; ++i)
     states[std::string(state_name(static_cast<CurvatureState>(i)))] = record->state_shares[i];
-  }
   return {{"kappa_1", range(record->kappa_1)},
           {"kappa_2", range(record->kappa_2)},
           {"unknown_share", record->unknown_share},

@@ -218,7 +218,9 @@ TEST(VertexCurvature, TurnsWithTheSolid) {
 
 /// At the corners of a box that is 1 thick nothing is known, and the nearest of the balls between its faces tell why.
 TEST(VertexCurvature, TheNearestBallTellsWhyNothingIsKnown) {
-  const IndexedMesh mesh = indexed(test::make_box({2, 2, 0.5}));
+  Mesh box = test::make_box({4, 4, 1});
+  for (Point& p : box.vertices) p = p - Point{2, 2, 0.5};
+  const IndexedMesh mesh = indexed(box);
   const auto states_of = [&](const std::vector<Ball>& balls) {
     CurvatureOptions options;
     options.spacing = kBallSpacing;
