@@ -73,28 +73,37 @@ TipCloud part_of(const TipCloud& cloud, std::span<const std::uint32_t> numbers) 
   return out;
 }
 
-/// The mean of the patches on the same side within `reach`, each at its own place over the tip.
+/// From sums over patches to their mean.
+TipFit mean_of(TipFit sum, double weights) {
+  const double size = length(sum.normal);
+  if (!(size > 0)) return {};
+  sum.is_known = true;
+  sum.normal = 1 / size * sum.normal;
+  sum.form /= weights;
+  sum.spread /= weights;
+  return sum;
+}
+
+/// The mean of the patches on the same side within `reach`, each at its own place over the tip. Not known where one of
+/// them is not: there the boundary bends too much within the window, or tips end, and the others would be continued
+/// beyond what they were fitted to.
 TipFit blend(std::span<const TipPatch> patches, const TipCloud& middles, const PointGrid& grid, const Point& tip,
              const Point& normal, double reach) {
-  TipFit out;
+  TipFit sum;
   double weights = 0, nearest = 2 * reach * reach;
+  bool are_all_known = true;
   grid.visit_within(tip, reach, [&](std::uint32_t i, double squared) {
-    if (!patches[i].is_known || !are_on_one_side(middles.normals[i], normal)) return;
+    if (!are_all_known || !are_on_one_side(middles.normals[i], normal)) return;
+    are_all_known = patches[i].is_known;
     const double left = 1 - squared / (reach * reach), weight = left * left;
-    if (!(weight > 0)) return;
-    patches[i].add_at(tip, weight, out);
+    if (!are_all_known || !(weight > 0)) return;
+    patches[i].add_at(tip, weight, sum);
     weights += weight;
     if (squared >= nearest) return;
     nearest = squared;
-    out.is_cut = patches[i].is_cut;
+    sum.is_cut = patches[i].is_cut;
   });
-  const double size = length(out.normal);
-  if (!(size > 0)) return out;
-  out.is_known = true;
-  out.normal = 1 / size * out.normal;
-  out.form /= weights;
-  out.spread /= weights;
-  return out;
+  return are_all_known ? mean_of(sum, weights) : TipFit{};
 }
 
 }  // namespace
@@ -203,18 +212,25 @@ void FitLadder::fit_tips(std::size_t step, double radius, unsigned threads) {
     if (at.is_kept[i] != 0) kept.push_back(i);
   }
   const TipCloud members = part_of(at.cloud, kept), middles = part_of(at.cloud, anchors);
+  const PointGrid around(members.tips, radius / 3);
+  const auto patch_at = [&](std::uint32_t i) { return fit_patch(at.cloud, i, members, around, radius, step > 1); };
   std::vector<TipPatch> patches(anchors.size());
-  {
-    const PointGrid grid(members.tips, radius / 3);
-    parallel_for(anchors.size(), 16, threads, [&](std::size_t i) {
-      if (!stop_.stop_requested()) patches[i] = fit_patch(at.cloud, anchors[i], members, grid, radius, step > 1);
-    });
-  }
+  parallel_for(anchors.size(), 16, threads, [&](std::size_t i) {
+    if (!stop_.stop_requested()) patches[i] = patch_at(anchors[i]);
+  });
   const double reach = kBlendShare * radius;
   const PointGrid grid(middles.tips, reach);
   parallel_for(at.numbers.size(), 64, threads, [&](std::size_t i) {
     if (stop_.stop_requested()) return;
-    at.fits[at.numbers[i]] = blend(patches, middles, grid, at.cloud.tips[i], at.cloud.normals[i], reach);
+    const Point& tip = at.cloud.tips[i];
+    TipFit& fit = at.fits[at.numbers[i]];
+    fit = blend(patches, middles, grid, tip, at.cloud.normals[i], reach);
+    if (fit.is_known) return;
+    const TipPatch own = patch_at(static_cast<std::uint32_t>(i));
+    if (!own.is_known) return;
+    own.add_at(tip, 1, fit);
+    fit.is_cut = own.is_cut;
+    fit = mean_of(fit, 1);
   });
 }
 
