@@ -98,7 +98,7 @@ TEST_F(LongMotion, CoversTakeNoMoreMemory) {
   expect_no_growth(follower);
 }
 
-/// Frames with exchanges allocate, and keep nothing of it.
+/// Nor do frames with exchanges.
 TEST_F(LongMotion, BallsChosenAnewTakeNoMoreMemory) {
   const FollowerOptions options = {.steps = 0, .renewed = 2, .renewal_factor = 1, .threads = 1};
   Follower follower = Follower::create(mesh, points(50), options).value();

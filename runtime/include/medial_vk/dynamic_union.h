@@ -51,6 +51,14 @@ class DynamicUnion {
   /// The slots of the balls whose power cells have been altered by the last change.
   std::span<const std::uint32_t> changed() const;
 
+  /// Removes all balls, whose memory serves later ones; `largest` as in build(). Allocates nothing. Error: kUsage
+  /// (`largest`: nothing has changed).
+  Status clear(double largest);
+  /// Later changes, and gain() and loss(), allocate nothing as long as the power cells of all balls together have at
+  /// most twice as many faces and corners as now, no more than 1,024 balls touch one, and exact arithmetic needs no
+  /// more than usual. Error: kOutOfMemory.
+  Status make_room();
+
   /// The increase of the volume of the union by add(). Errors: those of add().
   Result<double> gain(const Ball& ball);
   /// The decrease of the volume of the union by remove(). Errors: those of remove().

@@ -29,6 +29,8 @@
 #include "medial_vk/nearest_bodies.h"
 #include "medial_vk/part_fits.h"
 #include "medial_vk/penetration.h"
+#include "medial_vk/plane_axis.h"
+#include "medial_vk/plane_shape.h"
 #include "medial_vk/pose.h"
 #include "medial_vk/prepare.h"
 #include "medial_vk/progress.h"

@@ -25,6 +25,11 @@ class ExpansionArena {
   /// Releases the last `count` doubles of the latest allocation.
   void give_back(std::size_t count) { used_ -= count; }
   void reset() { block_ = used_ = 0; }
+  /// Allocates blocks for so many doubles.
+  void make_room(std::size_t count) {
+    blocks_.reserve(count / kBlock + 1);
+    while (blocks_.size() * kBlock < count) add_block(kBlock);
+  }
   /// Allocates what `other` has and this one lacks.
   void make_room_of(const ExpansionArena& other) {
     while (blocks_.size() < other.blocks_.size()) add_block(other.blocks_[blocks_.size()].size);

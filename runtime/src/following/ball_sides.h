@@ -1,7 +1,9 @@
 // On which side of the surface balls lie that do not meet it.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -20,6 +22,9 @@ class BallSides {
   /// kOutOfMemory, kUsage (as measure_ball_union()).
   static Result<BallSides> build(std::span<const Ball> rest, unsigned threads);
 
+  /// So that renew() allocates nothing, as long as all balls together have no more than 64 others each. Throws
+  /// std::bad_alloc.
+  void make_room() { edges_.reserve(std::max(kUsualOthers * parents_.size(), 2 * rest_edges_.size())); }
   /// From now on this ball is expected to overlap these others, and no longer those before.
   void renew(std::uint32_t ball, std::span<const std::uint32_t> others);
   /// Expects what build() found.
@@ -32,6 +37,7 @@ class BallSides {
   std::size_t queries() const { return queries_; }
 
  private:
+  static constexpr std::size_t kUsualOthers = 64;
   std::uint32_t root(std::uint32_t ball);
   void connect(std::span<const Ball> balls);
 

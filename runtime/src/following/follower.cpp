@@ -123,6 +123,7 @@ class Follower::Impl {
     if (!sides) return sides.error();
     sides_ = std::move(sides).value();
     before_ = tracked_;
+    if (options_.steps > 0 || options_.renewed > 0) measurer_.make_room(balls.size(), options_.renewed > 0, pool_);
     // Of an open mesh: balls whose centres are inside may reach through a hole.
     if (options_.rule == FollowRule::kTangent) drop_outside();
     rest_ = tracked_;
@@ -130,9 +131,21 @@ class Follower::Impl {
       if (Status status = measure_present(false); !status) return status;
       const double volume = solid_volume(measurer_.result());
       rest_share_ = uncovered_share(measurer_.result());
-      if (rest_share_ > 0) growth_.emplace(surface_, present_, volume, options_.renewal_factor);
+      if (rest_share_ > 0) {
+        if (Status status = prepare_renewal(volume); !status) return status;
+      }
     }
     report();
+    return {};
+  }
+
+  Status prepare_renewal(double volume) {
+    growth_.emplace(surface_, present_, volume, options_.renewal_factor);
+    Result<Renewal> renewal = Renewal::build(surface_, present_, growth_->samples(), options_.renewed);
+    if (!renewal) return renewal.error();
+    renewal_.emplace(std::move(renewal).value());
+    sides_.make_room();
+    returned_.reserve(tracked_.size());
     return {};
   }
 
@@ -189,8 +202,8 @@ class Follower::Impl {
     const bool is_everywhere = uncovered_share(measured) > most;
     if (is_everywhere) growth_->choose_all();
     if (!has_region && !is_everywhere) return {};
-    const Result<std::vector<BallExchange>> exchanges = find_exchanges(
-        surface_, present_, measured, {growth_->samples(), growth_->chosen()}, options_.renewed, options_.threads);
+    const Result<std::span<const BallExchange>> exchanges =
+        renewal_->find(surface_, present_, measured, {growth_->samples(), growth_->chosen()}, pool_);
     if (!exchanges) return exchanges.error();
     for (const BallExchange& exchange : exchanges.value()) take_exchange(exchange);
     if (exchanges.value().size() == options_.renewed) return {};
@@ -210,13 +223,13 @@ class Follower::Impl {
     tracked.rest_radius = tracked.ball.radius;
     is_renewed_[exchange.ball] = 1;
     came_[exchange.ball] = FollowOrigin::kRenewed;
-    sides_.renew(exchange.ball, exchange.others);  // only a hint: memory may run out in it
+    sides_.renew(exchange.ball, renewal_->others_of(exchange));  // only a hint: memory may run out in it
   }
 
   /// Where the surface is as in the rest pose at the places that balls have left, all of them return, unless they would
   /// leave again.
   Status return_renewed() {
-    std::vector<std::pair<std::size_t, TrackedBall>> returned;
+    returned_.clear();
     for (std::size_t i = 0; i < tracked_.size(); ++i) {
       if (is_renewed_[i] == 0 || !rest_[i].has_two_contacts()) continue;
       const double share = share_of_rest(surface_, rest_[i]);
@@ -225,17 +238,17 @@ class Follower::Impl {
       now.ball.radius = 0;
       replace(now, drawn_to_rest(surface_, rest_[i], share, now));
       if (!(now.ball.radius > 0) || !surface_.holds(now.ball)) return {};
-      returned.emplace_back(i, now);
+      returned_.emplace_back(i, now);
     }
-    if (returned.empty()) return {};
+    if (returned_.empty()) return {};
     copy_balls(present_);
-    for (const auto& [i, now] : returned) present_[i] = now.ball;
+    for (const auto& [i, now] : returned_) present_[i] = now.ball;
     if (Status status = measurer_.measure(present_, false, pool_); !status) return status;
     if (uncovered_share(measurer_.result()) > kDrawn * options_.renewal_factor * rest_share_) return {};
     if (growth_->has_grown(surface_, present_, solid_volume(measurer_.result()), pool_)) return {};
     sides_.return_to_rest();
     growth_->return_to_rest();
-    for (const auto& [i, now] : returned) {
+    for (const auto& [i, now] : returned_) {
       tracked_[i] = now;
       is_renewed_[i] = 0;
       came_[i] = FollowOrigin::kReturned;
@@ -338,6 +351,8 @@ class Follower::Impl {
   double measured_share_ = 0;             // of the present frame, before the last step
   double solid_volume_ = 0;               // likewise
   std::optional<RegionalGrowth> growth_;  // if something is uncovered in the rest pose
+  std::optional<Renewal> renewal_;        // likewise
+  std::vector<std::pair<std::size_t, TrackedBall>> returned_;
 };
 
 Follower::Follower(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

@@ -2,11 +2,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 
-#include "base/parallel.h"
 #include "base/point_ops.h"
-#include "sphere_fits/quality/nearest_ball_tree.h"
 
 namespace medial_vk {
 namespace {
@@ -16,31 +13,37 @@ constexpr std::uint32_t kHeldByNone = 0xffffffffu;
 
 }  // namespace
 
-WatchedPoints::WatchedPoints(const MovingSurface& surface, std::span<const Ball> balls, const GapSamples& samples,
-                             unsigned threads)
-    : balls_(balls.begin(), balls.end()) {
-  std::vector<Ball> present;
-  std::vector<std::uint32_t> ball_of;
+WatchedPoints::WatchedPoints(const MovingSurface& surface, std::size_t balls, const GapSamples& samples)
+    : balls_(balls), present_(balls), tree_(present_) {
+  const std::size_t triangles = surface.triangles().size();
+  stride_ = triangles / kMostMiddles + 1;
+  middles_ = (triangles + stride_ - 1) / stride_;
+  points_.resize(middles_ + samples.points().size());
+  held_by_.resize(points_.size());
+  ball_of_.reserve(balls);
+}
+
+void WatchedPoints::start(const MovingSurface& surface, std::span<const Ball> balls, const GapSamples& samples,
+                          WorkerPool& pool) {
+  std::ranges::copy(balls, balls_.begin());
+  present_.clear();
+  ball_of_.clear();
   for (std::uint32_t i = 0; i < balls.size(); ++i) {
     if (!(balls[i].radius > 0)) continue;
-    present.push_back(balls[i]);
-    ball_of.push_back(i);
+    present_.push_back(balls[i]);
+    ball_of_.push_back(i);
   }
-  std::optional<NearestBallTree> tree;
-  if (!present.empty()) tree.emplace(present);
-  const std::size_t triangles = surface.triangles().size(), stride = triangles / kMostMiddles + 1;
-  const std::size_t middles = (triangles + stride - 1) / stride;
-  points_.resize(middles + samples.points().size());
-  held_by_.resize(points_.size());
-  parallel_for(points_.size(), 64, threads, [&](std::size_t i) {
-    const bool is_middle = i < middles;
+  tree_.rebuild(present_);
+  pool.run(points_.size(), 64, [&](std::size_t i) {
+    const bool is_middle = i < middles_, is_any = !present_.empty();
     const SurfacePoint on =
-        is_middle ? middle_of(static_cast<std::uint32_t>(i * stride)) : samples.points()[i - middles];
+        is_middle ? middle_of(static_cast<std::uint32_t>(i * stride_)) : samples.points()[i - middles_];
     const Point at = surface.at(on);
-    const NearestBall nearest = tree ? tree->nearest(at) : NearestBall();
-    points_[i] = {at, tree ? nearest.distance : surface.longest_side(), on.triangle, is_middle};
-    held_by_[i] = tree ? ball_of[nearest.ball] : kHeldByNone;
+    const NearestBall nearest = tree_.nearest(at);
+    points_[i] = {at, is_any ? nearest.distance : surface.longest_side(), on.triangle, is_middle};
+    held_by_[i] = is_any ? ball_of_[nearest.ball] : kHeldByNone;
   });
+  greatest_ = 0;
   for (const WatchedPoint& point : points_) greatest_ = std::max(greatest_, point.distance);
 }
 

@@ -8,6 +8,8 @@
 #include "following/gap_samples.h"
 #include "following/surface/moving_surface.h"
 #include "medial_vk/ball.h"
+#include "sphere_fits/quality/nearest_ball_tree.h"
+#include "threads/worker_pool.h"
 
 namespace medial_vk {
 
@@ -23,8 +25,11 @@ struct WatchedPoint {
 /// Middles of triangles, and the samples of gaps. Of very fine meshes a part of the triangles suffices.
 class WatchedPoints {
  public:
-  /// Balls of radius 0 are lost. Throws std::bad_alloc.
-  WatchedPoints(const MovingSurface& surface, std::span<const Ball> balls, const GapSamples& samples, unsigned threads);
+  /// Of frames of this surface, with these samples and so many balls. Throws std::bad_alloc.
+  WatchedPoints(const MovingSurface& surface, std::size_t balls, const GapSamples& samples);
+
+  /// The beginning, in the present frame. Balls of radius 0 are lost. Allocates nothing.
+  void start(const MovingSurface& surface, std::span<const Ball> balls, const GapSamples& samples, WorkerPool& pool);
 
   std::span<const WatchedPoint> points() const { return points_; }
   /// True if all points would still have a ball as near as the farthest one had at the beginning, without this one.
@@ -40,6 +45,11 @@ class WatchedPoints {
   std::vector<std::uint32_t> held_by_;  // by point: a ball that is near enough
   std::vector<Ball> balls_;
   double greatest_ = 0;
+  std::size_t middles_ = 0, stride_ = 1;
+  // Of start(): the balls that are not lost.
+  std::vector<Ball> present_;
+  std::vector<std::uint32_t> ball_of_;
+  NearestBallTree tree_;
 };
 
 }  // namespace medial_vk

@@ -141,6 +141,36 @@ TEST(DynamicUnion, TakesOneBallAsItIs) {
   EXPECT_EQ(balls.gain({{3e5, 0, -2e5}, 1}).value(), 0);
 }
 
+/// In another order and at another scale than before, and with other cells in the memory.
+TEST(DynamicUnion, ClearedItIsAsANewOne) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::vector<Ball> some;
+  for (int i = 0; i < 40; ++i) some.push_back({{uniform(random), uniform(random), uniform(random)}, 0.4});
+  DynamicUnion kept = std::move(DynamicUnion::build(40, 2)).value();
+  for (const Ball& ball : some) ASSERT_TRUE(kept.add(ball).ok());
+  ASSERT_TRUE(kept.make_room().ok());
+  ASSERT_TRUE(kept.remove(3).ok());
+  EXPECT_EQ(kept.clear(NAN).error().code, ErrorCode::kUsage);
+  EXPECT_EQ(kept.size(), 39u);
+  ASSERT_TRUE(kept.clear(5).ok());
+  EXPECT_EQ(kept.size(), 0u);
+  EXPECT_EQ(kept.slots(), 0u);
+  EXPECT_EQ(kept.volume(), 0);
+  EXPECT_TRUE(kept.changed().empty());
+  kept.undo();  // nothing
+  EXPECT_EQ(kept.size(), 0u);
+  DynamicUnion fresh = std::move(DynamicUnion::build(40, 5)).value();
+  for (std::size_t i = some.size(); i-- > 0;) {
+    ASSERT_EQ(kept.add(some[i]).value(), fresh.add(some[i]).value());
+    EXPECT_EQ(kept.volume(), fresh.volume());
+  }
+  for (std::uint32_t slot = 0; slot < 40; ++slot) {
+    EXPECT_EQ(kept.exposure(slot).area, fresh.exposure(slot).area);
+    EXPECT_EQ(kept.loss(slot).value(), fresh.loss(slot).value());
+  }
+}
+
 TEST(DynamicUnion, NamesWhatItCannotTake) {
   DynamicUnion balls = std::move(DynamicUnion::build(1, 1)).value();
   EXPECT_EQ(DynamicUnion::build(1, 0).error().code, ErrorCode::kUsage);

@@ -264,7 +264,19 @@ TEST(Renewal, NoExchangeMakesTheGreatestGapLarger) {
     WorkerPool pool(1);
     ASSERT_TRUE(measurer.measure(plain.balls(), true, pool).ok());
     const std::vector<std::uint8_t> all(samples.regions(), 1);
-    const auto exchanges = find_exchanges(surface, plain.balls(), measurer.result(), {samples, all}, 20, 1).value();
+    Renewal renewal = std::move(Renewal::build(surface, example.balls, samples, 20)).value();
+    // What an object has found before does not matter.
+    ASSERT_TRUE(renewal.find(surface, example.balls, measurer.result(), {samples, all}, pool).ok());
+    const auto exchanges = renewal.find(surface, plain.balls(), measurer.result(), {samples, all}, pool).value();
+    Renewal other = std::move(Renewal::build(surface, plain.balls(), samples, 20)).value();
+    const auto same = other.find(surface, plain.balls(), measurer.result(), {samples, all}, pool).value();
+    ASSERT_EQ(exchanges.size(), same.size());
+    for (std::size_t i = 0; i < same.size(); ++i) {
+      EXPECT_EQ(exchanges[i].ball, same[i].ball);
+      EXPECT_EQ(exchanges[i].by.ball.centre, same[i].by.ball.centre);
+      EXPECT_EQ(exchanges[i].by.ball.radius, same[i].by.ball.radius);
+      EXPECT_TRUE(std::ranges::equal(renewal.others_of(exchanges[i]), other.others_of(same[i])));
+    }
     std::vector<Ball> balls = copy_of(plain.balls());
     const double before = greatest_gap(surface, samples, balls);
     for (const BallExchange& exchange : exchanges) {
@@ -287,7 +299,8 @@ TEST(Renewal, ABallThatAloneReachesAnEndStays) {
   UnionMeasurer measurer;
   WorkerPool pool(1);
   ASSERT_TRUE(measurer.measure(box.balls, true, pool).ok());
-  const auto exchanges = find_exchanges(surface, box.balls, measurer.result(), {samples, all}, 2, 1).value();
+  Renewal renewal = std::move(Renewal::build(surface, box.balls, samples, 2)).value();
+  const auto exchanges = renewal.find(surface, box.balls, measurer.result(), {samples, all}, pool).value();
   ASSERT_FALSE(exchanges.empty());
   EXPECT_EQ(exchanges[0].ball, 2u);
   for (const BallExchange& exchange : exchanges) EXPECT_NE(exchange.ball, 0u);

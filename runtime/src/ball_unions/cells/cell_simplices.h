@@ -14,6 +14,8 @@ class SimplexCollector {
  public:
   void collect(const PowerCell& cell, const Ball& ball, DualComplex& complex, std::vector<EnvelopeVertex>& vertices);
 
+  /// So that it allocates nothing for cells of so many planes.
+  void make_room(std::size_t planes) { faces_.reserve(planes); }
   /// So that it allocates nothing for cells that the other has taken.
   void make_room_of(const SimplexCollector& other) { faces_.reserve(other.faces_.capacity()); }
 

@@ -32,9 +32,9 @@ void PowerCell::start_empty(std::uint32_t i) {
   ball_ = i;
   planes_.clear();
   corners_.clear();
-  walls_.assign(6, {});
+  walls_.assign(kWalls, {});
   const double side = balls_[i].radius * kRoom;
-  for (std::size_t k = 0; k < 6; ++k) {
+  for (std::size_t k = 0; k < kWalls; ++k) {
     Wall& wall = walls_[k];
     wall.normal[k / 2] = k % 2 == 0 ? -1 : 1;
     wall.offset = side;
@@ -94,7 +94,7 @@ std::uint32_t PowerCell::plane_of(std::uint32_t j) {
 }
 
 void PowerCell::cut_to_box() {
-  for (std::uint32_t wall = 0; wall < 6; ++wall) {
+  for (std::uint32_t wall = 0; wall < kWalls; ++wall) {
     if (find_cut_corners(planes_[wall])) cut_by(wall);
   }
   farthest_ = 2 * balls_[ball_].radius;
@@ -107,18 +107,30 @@ void PowerCell::make_room_of(const PowerCell& other) {
   exact_.make_room_of(other.exact_);
 }
 
-void PowerCell::keep(Kept& kept) const {
-  kept.ball = ball_;
-  kept.walls = walls_;
-  kept.planes = planes_;
-  kept.corners = corners_;
+/// A polyhedron of n faces has at most 2 n - 4 corners, and those that a further face gets, at most n, are added before
+/// those that it cuts off are removed.
+void PowerCell::make_room(std::size_t planes, std::size_t balls) {
+  const std::size_t all = planes + kWalls, corners = 3 * all;
+  walls_.reserve(kWalls);
+  planes_.reserve(all);
+  corners_.reserve(corners);
+  heights_.reserve(corners);
+  is_cut_.reserve(corners);
+  cut_.reserve(corners);
+  added_.reserve(corners);
+  leaving_.reserve(all);
+  arriving_.reserve(all);
+  plane_of_.reserve(balls);
+  exact_.make_room();
 }
 
-void PowerCell::restore(const Kept& kept) {
-  ball_ = kept.ball;
-  walls_ = kept.walls;
-  planes_ = kept.planes;
-  corners_ = kept.corners;
+void PowerCell::restore(std::uint32_t i, std::span<const Bisector> planes, std::span<const Corner> corners) {
+  ball_ = i;
+  planes_.assign(planes.begin(), planes.end());
+  corners_.assign(corners.begin(), corners.end());
+  walls_.clear();
+  for (const Bisector& wall : planes.first(std::min<std::size_t>(planes.size(), kWalls)))
+    walls_.push_back({wall.normal, wall.offset});
   farthest_ = 2 * balls_[ball_].radius;
 }
 

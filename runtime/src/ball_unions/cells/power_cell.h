@@ -16,6 +16,7 @@ namespace medial_vk {
 /// after the other, so that memory is allocated rarely.
 class PowerCell {
  public:
+  static constexpr std::size_t kWalls = 6;  ///< The first planes of every cell.
   struct Corner {
     Point at;                             ///< Relative to the ball's centre.
     double slack;                         ///< The true corner is at most this far from `at`.
@@ -32,18 +33,13 @@ class PowerCell {
     balls_ = balls;
     exact_.use(balls);
   }
+  /// So that cells with so many planes, the six walls not counted, among so many balls allocate nothing.
+  void make_room(std::size_t planes, std::size_t balls);
   /// Allocates the memory that the cells of another one needed.
   void make_room_of(const PowerCell& other);
 
-  /// The state from which restore() continues with a cell.
-  struct Kept {
-    std::uint32_t ball = 0;
-    std::vector<Wall> walls;
-    std::vector<Bisector> planes;
-    std::vector<Corner> corners;
-  };
-  void keep(Kept& kept) const;
-  void restore(const Kept& kept);
+  /// Continues with a cell of ball i, of which these are kept.
+  void restore(std::uint32_t i, std::span<const Bisector> planes, std::span<const Corner> corners);
 
   /// Starts a cell: a box that holds ball i with a margin.
   void start(std::uint32_t i);

@@ -24,18 +24,22 @@ Row row(const Ball& ball, const Ball& from) {
   return {d, square - radii, largest_of(d), square + std::fabs(radii)};
 }
 
+std::size_t slots_for(std::size_t edges) { return std::bit_ceil(2 * edges); }
+
 }  // namespace
 
+void BallInsertion::CavityEdges::make_room(std::size_t edges) { slots_.reserve(slots_for(edges)); }
+
 void BallInsertion::CavityEdges::start(std::size_t edges) {
-  const std::size_t size = std::bit_ceil(2 * edges);
-  if (size > slots_.size()) slots_.assign(size, {});
+  const std::size_t size = slots_for(edges);
+  if (size > slots_.size()) slots_.resize(size);
+  mask_ = size - 1;
   if (++stamp_ == 0) slots_.assign(slots_.size(), {}), stamp_ = 1;
 }
 
 auto BallInsertion::CavityEdges::meet(std::uint32_t a, std::uint32_t b, Side side) -> const Side* {
   const std::uint64_t key = std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
-  const std::size_t mask = slots_.size() - 1;
-  for (std::size_t k = (key * 0x9e3779b97f4a7c15u) >> 32 & mask;; k = (k + 1) & mask) {
+  for (std::size_t k = (key * 0x9e3779b97f4a7c15u) >> 32 & mask_;; k = (k + 1) & mask_) {
     Slot& slot = slots_[k];
     if (slot.stamp != stamp_) {
       slot = {key, side, stamp_};
@@ -45,6 +49,19 @@ auto BallInsertion::CavityEdges::meet(std::uint32_t a, std::uint32_t b, Side sid
   }
 }
 
+/// The surface of a cavity is a sphere with at most all other balls and the four corners as its vertices, n + 3 of
+/// them: it has 2 (n + 3) - 4 faces. The last insertion of a triangulation that is given up adds no more.
+void BallInsertion::make_room(std::size_t balls) {
+  const std::size_t faces = 2 * balls + 2, tetrahedra = RegularTriangulation::most_tetrahedra(balls) + faces;
+  tetrahedra_.reserve(tetrahedra);
+  marks_.reserve(tetrahedra);
+  free_.reserve(tetrahedra);
+  cavity_.reserve(tetrahedra);
+  faces_.reserve(faces);
+  edges_.make_room(3 * faces / 2);
+  exact_.make_room();
+}
+
 void BallInsertion::start(std::span<const Ball> balls, const std::array<std::uint32_t, 4>& corners) {
   balls_ = balls;
   exact_.use(balls);
@@ -52,8 +69,10 @@ void BallInsertion::start(std::span<const Ball> balls, const std::array<std::uin
   marks_.clear();
   free_.clear();
   last_ = stamp_ = 0;
-  tetrahedra_.reserve(8 * balls_.size());
-  marks_.reserve(8 * balls_.size());
+  const std::size_t others = balls_.size() - corners.size();
+  const std::size_t usual = std::min(8 * balls_.size(), RegularTriangulation::most_tetrahedra(others));
+  tetrahedra_.reserve(usual);
+  marks_.reserve(usual);
   tetrahedra_.push_back({corners, {kNone, kNone, kNone, kNone}});
   marks_.push_back(0);
 }

@@ -25,6 +25,8 @@ class BallInsertion {
   BallInsertion(const BallInsertion&) = delete;
   BallInsertion& operator=(const BallInsertion&) = delete;
 
+  /// So that a triangulation of so many balls allocates nothing.
+  void make_room(std::size_t balls);
   /// One tetrahedron that holds all later centres. The balls stay where they are until take().
   void start(std::span<const Ball> balls, const std::array<std::uint32_t, 4>& corners);
   void insert(std::uint32_t ball);
@@ -39,6 +41,7 @@ class BallInsertion {
   /// second.
   class CavityEdges {
    public:
+    void make_room(std::size_t edges);
     struct Side {
       std::uint32_t tetrahedron, face;
     };
@@ -53,6 +56,7 @@ class BallInsertion {
       std::uint32_t stamp;
     };
     std::vector<Slot> slots_;
+    std::size_t mask_ = 0;  // of the present cavity, one less than a power of two
     std::uint32_t stamp_ = 0;
   };
 

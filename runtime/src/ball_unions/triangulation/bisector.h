@@ -60,6 +60,8 @@ class ExactSide {
   ExactSide(std::span<const Ball> balls, const std::vector<Wall>& walls) : balls_(balls), walls_(walls) {}
   /// For other balls, with the memory of earlier tests.
   void use(std::span<const Ball> balls) { balls_ = balls; }
+  /// Allocates the memory of all but tests among numbers of very different sizes.
+  void make_room() { arena_.make_room(kUsualRoom); }
   /// Allocates the memory that the tests of another one needed.
   void make_room_of(const ExactSide& other) { arena_.make_room_of(other.arena_); }
 
@@ -79,6 +81,7 @@ class ExactSide {
   }
 
  private:
+  static constexpr std::size_t kUsualRoom = 32'768;  // doubles
   /// A plane as (normal, offset), not scaled.
   template <class Number>
   struct Row {

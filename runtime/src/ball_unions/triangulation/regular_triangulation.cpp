@@ -42,8 +42,7 @@ bool RegularTriangulation::rebuild(std::span<const Ball> balls, std::span<const 
   add_far_points();
   const auto far = static_cast<std::uint32_t>(balls.size());
   insertion.start(balls_, {far, far + 1, far + 2, far + 3});
-  // One more ball adds at most twice as many as there are balls: names never run out.
-  const std::size_t most = std::min<std::size_t>(kMostPerBall * balls.size() + kMostAnyway, 1u << 31);
+  const std::size_t most = most_tetrahedra(balls.size());
   sort_into_rounds(order);
   for (const std::uint32_t ball : rounds_) {
     insertion.insert(ball);
@@ -53,6 +52,26 @@ bool RegularTriangulation::rebuild(std::span<const Ball> balls, std::span<const 
   list_stars();
   place_corners(pool);
   return true;
+}
+
+// One more ball adds at most twice as many as there are balls: names never run out.
+std::size_t RegularTriangulation::most_tetrahedra(std::size_t balls) {
+  const std::size_t most = std::min<std::size_t>(kMostPerBall * balls + kMostAnyway, 1u << 31);
+  return balls < kMostAnyway ? std::min(most, (balls + 5) * (balls + 2) / 2 - 4) : most;
+}
+
+void RegularTriangulation::make_room(std::size_t balls, unsigned threads) {
+  const std::size_t all = balls + kFarPoints, most = most_tetrahedra(balls);
+  balls_.reserve(all);
+  rounds_.reserve(balls);
+  counts_.reserve(all);
+  first_.reserve(all + 1);
+  tetrahedra_.reserve(most);
+  corners_.reserve(most);
+  positions_.reserve(most);
+  around_.reserve(4 * most);
+  while (exact_.size() < threads) exact_.push_back(std::make_unique<ExactCorners>());
+  for (const auto& exact : exact_) exact->side.make_room();
 }
 
 /// Random rounds, each half as large as the next, with neighbours after each other in each: few tetrahedra are created

@@ -24,6 +24,7 @@ class WorkerPool;
 class RegularTriangulation {
  public:
   static constexpr std::uint32_t kNone = 0xffffffffu;
+  static constexpr std::uint32_t kFarPoints = 4;
   struct Tetrahedron {
     std::array<std::uint32_t, 4> balls;       ///< det(c_1 - c_0, c_2 - c_0, c_3 - c_0) > 0.
     std::array<std::uint32_t, 4> neighbours;  ///< neighbours[k] shares all but balls[k]; kNone if there is none.
@@ -45,12 +46,20 @@ class RegularTriangulation {
   static std::optional<RegularTriangulation> build(std::span<const Ball> balls, std::span<const std::uint32_t> order,
                                                    unsigned threads);
 
+  /// No triangulation that is not given up has more. Of n + 4 points it has at most (n + 5) (n + 2) / 2 - 4, by the
+  /// upper bound theorem for the sphere that it and a cone over its four outer faces are.
+  static std::size_t most_tetrahedra(std::size_t balls);
+
   /// No balls.
   RegularTriangulation() = default;
   /// The same in the memory of the triangulation before and of `insertion`; false where build() has no value, and then
   /// this object holds no triangulation. Allocates nothing where the memory of the two calls before suffices.
   bool rebuild(std::span<const Ball> balls, std::span<const std::uint32_t> order, BallInsertion& insertion,
                WorkerPool& pool);
+
+  /// So that triangulations of so many balls on so many threads allocate nothing here; and in their insertion neither,
+  /// if that has room for them.
+  void make_room(std::size_t balls, unsigned threads);
 
   /// All input balls, followed by the far points as balls of radius 0.
   std::span<const Ball> balls() const { return balls_; }
@@ -65,7 +74,6 @@ class RegularTriangulation {
   std::uint32_t position_around(std::uint32_t t, std::size_t k) const { return positions_[t][k]; }
 
  private:
-  static constexpr std::uint32_t kFarPoints = 4;
   /// Of one thread at a time.
   struct ExactCorners {
     std::vector<Wall> no_walls;

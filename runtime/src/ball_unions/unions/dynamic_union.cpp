@@ -1,6 +1,7 @@
 #include "medial_vk/dynamic_union.h"
 
 #include <algorithm>
+#include <array>
 #include <cfloat>
 #include <cmath>
 #include <functional>
@@ -11,6 +12,7 @@
 #include "ball_unions/cells/ball_in_cell.h"
 #include "ball_unions/cells/cell_edge.h"
 #include "ball_unions/cells/power_cell.h"
+#include "ball_unions/unions/kept_cells.h"
 #include "ball_unions/unions/simplex_lists.h"
 #include "ball_unions/unions/unit_balls.h"
 #include "base/host_memory.h"
@@ -21,6 +23,10 @@ namespace {
 
 // Index of the ball of gain(), before those in the slots.
 constexpr std::uint32_t kTrial = 0, kFirst = 1, kNoBall = 0xffffffffu;
+
+/// The alterations of one change, and the planes of one cell, for which memory is allocated beforehand.
+constexpr std::size_t kUsualChange = 1024;
+std::size_t usual_change(std::uint32_t capacity) { return std::min<std::size_t>(capacity, kUsualChange) + kFirst; }
 
 constexpr Ball kGone = {{0, 0, 0}, std::numeric_limits<double>::quiet_NaN()};  // touches nothing
 bool is_gone(const Ball& ball) { return std::isnan(ball.radius); }
@@ -39,29 +45,10 @@ double offset_of(const Ball& ball, const Ball& other) {
   return (squared + ball.radius * ball.radius - other.radius * other.radius) / (2 * std::sqrt(squared));
 }
 
-/// A plane that is farther from the centre than this cuts no corner off. The offset is a sum of three terms of at most
-/// 4 over a length: where it is above `reach` >= 0 and the length small, so is the difference of the squared radii, and
-/// the 8 roundings stay below the 2^-40 that are added for balls that are not tiny; for tiny balls the cut is
-/// superfluous.
-double reach_of(const std::vector<PowerCell::Corner>& corners) {
-  double reach = 0;
-  for (const PowerCell::Corner& corner : corners) reach = std::max(reach, length(corner.at) + corner.slack);
-  return reach * (1 + 0x1p-30) + 0x1p-40;
+Status check_largest(double largest) {
+  if (largest > 0 && std::isfinite(largest)) return {};
+  return Error{ErrorCode::kUsage, "`largest` must be positive and finite"};
 }
-
-/// A stored power cell with its measures.
-struct BallCell {
-  PowerCell::Kept cell;
-  BallInCell measured;
-  double reach = 0;
-
-  /// True if ball i, or an unknown ball, cut anything from it.
-  bool may_grow_without(std::uint32_t i) const {
-    const auto name = static_cast<std::int32_t>(i);
-    return cell.corners.empty() || std::any_of(cell.planes.begin(), cell.planes.end(),
-                                               [&](const Bisector& plane) { return plane.ball == name; });
-  }
-};
 
 }  // namespace
 
@@ -69,27 +56,48 @@ class DynamicUnion::Impl {
  public:
   Impl(std::uint32_t capacity, double largest)
       : largest_(largest),
-        scale_(scale_of(std::vector<Ball>{{{largest, 0, 0}, 0}})),
+        scale_(scale_within(largest)),
         capacity_(capacity),
         balls_(kFirst + capacity, kGone),
         given_(kFirst + capacity, kGone),
-        cells_(kFirst + capacity),
-        cell_(balls_) {}
+        cells_(kFirst + capacity, usual_change(capacity)),
+        cell_(balls_) {
+    free_.reserve(capacity);  // so that remove() and undo() need no memory for it
+    changed_.reserve(usual_change(capacity));
+    near_.reserve(capacity);
+    cutting_.reserve(capacity);
+    affected_.reserve(2 * std::size_t{capacity});
+    order_.reserve(capacity);
+    cell_.make_room(usual_change(capacity), 0);
+  }
+
+  void make_room() { cells_.make_room(); }
+  void clear(double largest) {
+    largest_ = largest;
+    scale_ = scale_within(largest);
+    std::ranges::fill(balls_, kGone);
+    std::ranges::fill(given_, kGone);
+    cells_.clear();
+    end_ = kFirst;
+    free_.clear();
+    last_ = before_ = {};
+    changed_.clear();
+  }
 
   std::uint32_t slots() const { return end_ - kFirst; }
   std::uint32_t size() const { return slots() - static_cast<std::uint32_t>(free_.size()); }
   bool holds(std::uint32_t slot) const { return slot < slots() && !is_gone(balls_[kFirst + slot]); }
   const Ball& ball(std::uint32_t slot) const { return given_[kFirst + slot]; }
-  std::span<const std::uint32_t> changed() const { return last_.changed; }
+  std::span<const std::uint32_t> changed() const { return changed_; }
 
   double volume() const {
     CarefulSum sum;
-    for (std::uint32_t j = kFirst; j < end_; ++j) sum.add(cells_[j].measured.volume);
+    for (std::uint32_t j = kFirst; j < end_; ++j) sum.add(cells_.of(j).measured.volume);
     return sum.value() / scale_ / scale_ / scale_;
   }
 
   Exposure exposure(std::uint32_t slot) const {
-    const BallInCell& measured = cells_[kFirst + slot].measured;
+    const BallInCell& measured = cells_.of(kFirst + slot).measured;
     return {measured.area / scale_ / scale_, (1 / scale_ / scale_) * measured.area_vector};
   }
 
@@ -97,7 +105,7 @@ class DynamicUnion::Impl {
     const std::uint32_t i = kFirst + slot;
     const Ball& ball = balls_[i];
     PowerCell cell(balls_);
-    cell.restore(cells_[i].cell);
+    cells_.restore(i, cell);
     std::vector<Point> found;
     for_each_edge(cell, ball.radius, [&](const CellEdge& edge) {
       if (!(edge.half_chord_squared > 0)) return;
@@ -134,7 +142,6 @@ class DynamicUnion::Impl {
   }
 
   std::uint32_t add(const Ball& ball) {
-    free_.reserve(capacity_);  // so that remove() and undo() need no memory for it
     const std::uint32_t i = free_.empty() ? end_ : free_.back();
     change(i, ball);
     return i - kFirst;
@@ -146,9 +153,9 @@ class DynamicUnion::Impl {
   void undo() {
     if (last_.ball == kNoBall) return;
     set_ball(last_.ball, last_.given_before);
-    for (auto& [j, kept] : last_.cells_before) std::swap(cells_[j], kept);
+    cells_.undo();
     last_.ball = kNoBall;
-    last_.changed.clear();
+    changed_.clear();
   }
 
   double gain(const Ball& ball) {
@@ -158,31 +165,26 @@ class DynamicUnion::Impl {
     double sum = measure(kTrial).volume;
     for (const std::uint32_t j : near_) {
       if (sum <= 0) break;
-      if (cut(j, kTrial)) sum += measure(j).volume - cells_[j].measured.volume;
+      if (cut(j, kTrial)) sum += measure(j).volume - cells_.of(j).measured.volume;
     }
     return std::max(0.0, sum) / scale_ / scale_ / scale_;
   }
 
   double loss(std::uint32_t slot) {
     const std::uint32_t i = kFirst + slot;
-    double sum = cells_[i].measured.volume;
+    double sum = cells_.of(i).measured.volume;
     find_touching(balls_[i], near_);
     for (const std::uint32_t j : near_) {
       if (sum <= 0) break;
-      if (j == i || !cells_[j].may_grow_without(i)) continue;
+      if (j == i || !cells_.may_grow_without(j, i)) continue;
       build(j, i);
-      sum -= measure(j).volume - cells_[j].measured.volume;
+      sum -= measure(j).volume - cells_.of(j).measured.volume;
     }
     return std::max(0.0, sum) / scale_ / scale_ / scale_;
   }
 
  private:
-  struct Change {
-    std::uint32_t ball = kNoBall;
-    Ball given_before{};
-    std::vector<std::uint32_t> changed;
-    std::vector<std::pair<std::uint32_t, BallCell>> cells_before;
-  };
+  static double scale_within(double largest) { return scale_of(std::array<Ball, 1>{{{{largest, 0, 0}, 0}}}); }
 
   Ball scaled(const Ball& ball) const { return scaled_ball(ball, scale_); }
 
@@ -214,9 +216,9 @@ class DynamicUnion::Impl {
 
   /// The stored cell of j, also cut by i. False if that changes nothing.
   bool cut(std::uint32_t j, std::uint32_t i) {
-    const BallCell& kept = cells_[j];
-    if (kept.cell.corners.empty() || offset_of(balls_[j], balls_[i]) > kept.reach) return false;
-    cell_.restore(kept.cell);
+    const KeptCells::Kept& kept = cells_.of(j);
+    if (kept.cell.is_empty() || offset_of(balls_[j], balls_[i]) > kept.reach) return false;
+    cells_.restore(j, cell_);
     if (!cell_.clip(i)) return false;
     cell_.sharpen();
     return true;
@@ -232,19 +234,19 @@ class DynamicUnion::Impl {
   /// previous change can still be undone.
   void change(std::uint32_t i, const Ball& to) {
     const std::uint32_t end_before = end_;
-    std::swap(last_, change_before_);
-    last_.ball = kNoBall;
-    last_.changed.clear();
-    last_.cells_before.clear();
+    before_ = std::exchange(last_, {});
+    cells_.start_change();
     try {
       make_change(i, to);
+      note_changed();
     } catch (...) {
-      undo();
+      if (last_.ball != kNoBall) set_ball(last_.ball, last_.given_before);
+      cells_.give_up();
       if (end_ > end_before) {  // the slot is the last one freed
         free_.pop_back();
         end_ = end_before;
       }
-      std::swap(last_, change_before_);
+      last_ = before_;
       throw;
     }
   }
@@ -258,14 +260,14 @@ class DynamicUnion::Impl {
     find_touching(balls_[i], near_);
     append(affected_, near_);
     sort_unique(affected_);
-    if (is_gone(to)) put(i, {});
+    if (is_gone(to)) cells_.put_none(i);
     for (const std::uint32_t j : affected_) update(j, i, was_there);
   }
 
   /// The cell of j, with its measures, after a change of ball i.
   void update(std::uint32_t j, std::uint32_t i, bool was_there) {
     if (j == i && is_gone(balls_[i])) return;
-    if (j == i || (was_there && cells_[j].may_grow_without(i))) {
+    if (j == i || (was_there && cells_.may_grow_without(j, i))) {
       build(j, kNoBall);
       put_cell(j);
     } else if (touch(balls_[i], balls_[j]) && cut(j, i)) {
@@ -273,18 +275,12 @@ class DynamicUnion::Impl {
     }
   }
 
-  void put_cell(std::uint32_t j) {
-    BallCell kept;
-    cell_.keep(kept.cell);
-    kept.measured = measure(j);
-    kept.reach = reach_of(cell_.corners());
-    put(j, std::move(kept));
-  }
+  void put_cell(std::uint32_t j) { cells_.put(j, cell_, measure(j)); }
 
-  void put(std::uint32_t j, BallCell kept) {
-    last_.changed.push_back(j - kFirst);
-    last_.cells_before.emplace_back(j, BallCell{});  // from here on nothing throws: undo() must not meet this empty one
-    last_.cells_before.back().second = std::exchange(cells_[j], std::move(kept));
+  void note_changed() {
+    changed_.reserve(cells_.changed().size());
+    changed_.clear();
+    for (const std::uint32_t j : cells_.changed()) changed_.push_back(j - kFirst);
   }
 
   void set_ball(std::uint32_t i, const Ball& to) {
@@ -303,10 +299,15 @@ class DynamicUnion::Impl {
   std::uint32_t capacity_;
   std::vector<Ball> balls_;  // scaled; kGone in empty slots
   std::vector<Ball> given_;
-  std::vector<BallCell> cells_;
+  KeptCells cells_;
   std::uint32_t end_ = kFirst;
   std::vector<std::uint32_t> free_;
-  Change last_, change_before_;
+  struct Change {
+    std::uint32_t ball = kNoBall;
+    Ball given_before{};
+  };
+  Change last_, before_;
+  std::vector<std::uint32_t> changed_;  // slots
   // Scratch memory of the current call.
   PowerCell cell_;
   std::vector<std::uint32_t> near_, cutting_, affected_;
@@ -320,9 +321,7 @@ DynamicUnion::~DynamicUnion() = default;
 
 Result<DynamicUnion> DynamicUnion::build(std::uint32_t capacity, double largest) {
   if (capacity >= 1u << 30) return Error{ErrorCode::kUsage, "`capacity` must be below 2^30"};
-  if (!(largest > 0) || !std::isfinite(largest)) {
-    return Error{ErrorCode::kUsage, "`largest` must be positive and finite"};
-  }
+  if (Status status = check_largest(largest); !status.ok()) return status.error();
   return catch_out_of_memory("making room for balls", [&]() -> Result<DynamicUnion> {
     return DynamicUnion(std::make_unique<Impl>(capacity, largest));
   });
@@ -343,6 +342,19 @@ Result<std::vector<Point>> DynamicUnion::vertices(std::uint32_t slot) const {
 }
 
 std::span<const std::uint32_t> DynamicUnion::changed() const { return impl_->changed(); }
+Status DynamicUnion::make_room() {
+  return catch_out_of_memory("making room for changes of a union", [&]() -> Status {
+    impl_->make_room();
+    return {};
+  });
+}
+
+Status DynamicUnion::clear(double largest) {
+  if (Status status = check_largest(largest); !status.ok()) return status;
+  impl_->clear(largest);
+  return {};
+}
+
 void DynamicUnion::undo() { impl_->undo(); }
 
 Result<std::uint32_t> DynamicUnion::add(const Ball& ball) {

@@ -21,6 +21,15 @@ std::size_t block_of(std::size_t balls) { return std::max<std::size_t>(balls / 6
 
 std::size_t blocks_of(std::size_t balls) { return (balls + block_of(balls) - 1) / block_of(balls); }
 
+void make_room_for(DualComplex& complex, std::vector<EnvelopeVertex>& vertices, std::size_t balls) {
+  complex.vertices.reserve(UnionMeasurer::kRoomOfBall *
+                           balls);  // with the ends of all edges, before those are sorted out
+  complex.edges.reserve(UnionMeasurer::kRoomOfBall * balls);
+  complex.triangles.reserve(UnionMeasurer::kRoomOfBall * balls);
+  complex.tetrahedra.reserve(UnionMeasurer::kRoomOfBall * balls);
+  vertices.reserve(UnionMeasurer::kRoomOfBall * balls);
+}
+
 }  // namespace
 
 /// The contribution of one block of balls to the lists.
@@ -51,6 +60,30 @@ Status UnionMeasurer::measure(std::span<const Ball> balls, bool complex, WorkerP
   });
 }
 
+void UnionMeasurer::add_workers(WorkerPool& pool) {
+  while (cells_.size() < pool.threads()) cells_.push_back(std::make_unique<PowerCell>(triangulation_.balls()));
+  while (collectors_.size() < pool.threads()) collectors_.push_back(std::make_unique<SimplexCollector>());
+}
+
+void UnionMeasurer::make_room(std::size_t balls, bool complex, WorkerPool& pool) {
+  const std::size_t all = balls + RegularTriangulation::kFarPoints;
+  balls_.reserve(balls);
+  centres_.reserve(balls);
+  order_.reserve(balls);
+  result_.volumes.reserve(balls);
+  result_.areas.reserve(balls);
+  result_.vectors.reserve(balls);
+  insertion_.make_room(balls);
+  triangulation_.make_room(balls, pool.threads());
+  add_workers(pool);
+  for (const auto& cell : cells_) cell->make_room(all, all);
+  if (!complex) return;
+  for (const auto& collector : collectors_) collector->make_room(all + PowerCell::kWalls);
+  while (chunks_.size() < blocks_of(balls)) chunks_.emplace_back();
+  for (Chunk& chunk : chunks_) make_room_for(chunk.complex, chunk.vertices, block_of(balls));
+  make_room_for(result_.complex, result_.vertices, balls);
+}
+
 void UnionMeasurer::measure_scaled(bool complex, WorkerPool& pool) {
   result_.volumes.assign(balls_.size(), 0);
   result_.areas.assign(balls_.size(), 0);
@@ -72,9 +105,8 @@ void UnionMeasurer::measure_scaled(bool complex, WorkerPool& pool) {
 }
 
 void UnionMeasurer::measure_by_triangulation(WorkerPool& pool) {
-  while (cells_.size() < pool.threads()) cells_.push_back(std::make_unique<PowerCell>(triangulation_.balls()));
+  add_workers(pool);
   for (const auto& cell : cells_) cell->use(triangulation_.balls());
-  while (collectors_.size() < pool.threads()) collectors_.push_back(std::make_unique<SimplexCollector>());
   pool.run(blocks_of(balls_.size()), 1, [&](std::size_t block, unsigned worker) {
     PowerCell& cell = *cells_[worker];
     measure_block(block, *collectors_[worker], [&](std::uint32_t i) -> const PowerCell& {

@@ -19,15 +19,22 @@ namespace medial_vk {
 /// Used by one thread at a time.
 class UnionMeasurer {
  public:
+  /// Simplices and vertices of the envelope, of each kind, that make_room() provides for each ball: two to four times
+  /// what medial balls and fits have.
+  static constexpr std::size_t kRoomOfBall = 24;
+
   UnionMeasurer();
   ~UnionMeasurer();
   UnionMeasurer(const UnionMeasurer&) = delete;
   UnionMeasurer& operator=(const UnionMeasurer&) = delete;
 
   /// measure_ball_union() on the threads of a pool. It allocates nothing where the memory of
-  /// the two calls before suffices, unless the balls have no triangulation of a linear size. The result is in result()
-  /// until the next call. Errors: those of measure_ball_union(); result() is then undefined.
+  /// the two calls before suffices, or that of make_room(), unless the balls have no triangulation of a linear size.
+  /// The result is in result() until the next call. Errors: those of measure_ball_union(); result() is then undefined.
   Status measure(std::span<const Ball> balls, bool complex, WorkerPool& pool);
+  /// Makes room for the most that unions of so many balls need, and for a complex with several times as many simplices
+  /// as those of usual balls. Throws std::bad_alloc.
+  void make_room(std::size_t balls, bool complex, WorkerPool& pool);
   /// May be taken.
   BallUnion& result() { return result_; }
 
@@ -37,6 +44,7 @@ class UnionMeasurer {
  private:
   struct Chunk;
 
+  void add_workers(WorkerPool& pool);
   void measure_scaled(bool complex, WorkerPool& pool);
   void measure_by_triangulation(WorkerPool& pool);
   void measure_one_by_one(WorkerPool& pool);

@@ -1,0 +1,210 @@
+#include "plane/diagram/diagram_nodes.h"
+
+#include <algorithm>
+#include <numbers>
+#include <utility>
+
+namespace medial_vk::plane {
+namespace {
+
+constexpr double kGrid = 0x1p-35;
+
+/// Nodes at this distance or less are one: each was accepted with a slack of tie() in three distances, which moves a
+/// centre by more where contacts lie at small angles.
+constexpr double merge_distance(double radius) { return 64 * tie(radius); }
+static_assert(merge_distance(1.5) < kGrid);
+
+struct GridKey {
+  std::int64_t x, y;
+  std::uint32_t node;
+  friend constexpr auto operator<=>(const GridKey&, const GridKey&) = default;
+};
+
+GridKey key_of(Vec2 x, std::uint32_t node) {
+  return {static_cast<std::int64_t>(std::floor(x.x / kGrid)), static_cast<std::int64_t>(std::floor(x.y / kGrid)), node};
+}
+
+}  // namespace
+
+DiagramNodes::DiagramNodes(const SiteSet& sites, const DiagramQuery& query, const CellTree& tree,
+                           const DiagramParts& parts)
+    : sites_(sites), wanted_(query.wanted) {
+  add_vertices(parts);
+  add_corners(query, tree);
+  add_clusters(tree);
+  merge(tree);
+  index_contacts();
+}
+
+void DiagramNodes::add(const DiagramNode& node, std::span<const Contact> contacts, double size) {
+  nodes_.push_back(node);
+  contacts_.emplace_back(contacts.begin(), contacts.end());
+  sizes_.push_back(size);
+}
+
+void DiagramNodes::add_vertices(const DiagramParts& parts) {
+  for (const DiagramVertex& vertex : parts.vertices) {
+    add({vertex.circle, 0, NodeKind::kMeeting}, parts.contacts_of(vertex), 0);
+  }
+}
+
+/// Two segments that leave a point, with less than half a turn between them, meet in a corner of the region between.
+void DiagramNodes::add_corners(const DiagramQuery& query, const CellTree& tree) {
+  for (std::uint32_t p = 0; p < sites_.points(); ++p) {
+    const std::span<const std::uint32_t> fan = sites_.segments_of(p);
+    if (fan.size() < 2 || tree.node_at(sites_.point(p)) == CellTree::kNone) continue;
+    for (std::size_t i = 0; i < fan.size(); ++i) {
+      const std::uint32_t right = fan[i], left = fan[(i + 1) % fan.size()];
+      const Vec2 from = sites_.leaving(p, right), to = sites_.leaving(p, left);
+      if (!(cross(from, to) > 0)) continue;
+      const auto side_towards = [&](std::uint32_t segment, Side when_leaving) {
+        return sites_.segment(segment).ends[0] == p ? when_leaving : other(when_leaving);
+      };
+      std::array<Contact, 2> pair = {Contact{right, side_towards(right, Side::kLeft)},
+                                     Contact{left, side_towards(left, Side::kRight)}};
+      if (!allows(query.wanted, pair[0].side) || !can_pair(sites_, query.wanted, pair[0], pair[1])) continue;
+      if ((std::numbers::pi - angle_between(from, to)) / 2 < query.object_angle) continue;
+      std::ranges::sort(pair);
+      add({{sites_.point(p), 0}, 0, NodeKind::kCorner}, pair, 0);
+    }
+  }
+}
+
+void DiagramNodes::add_clusters(const CellTree& tree) {
+  first_cluster_ = static_cast<std::uint32_t>(nodes_.size());
+  std::vector<Contact> contacts;
+  for (std::uint32_t cluster = 0; cluster < tree.size(); ++cluster) {
+    if (tree.state(cluster) != CellState::kClustered) continue;
+    const Cell cell = tree.cell(cluster);
+    contacts.clear();
+    double radius = 2;
+    for (const std::uint32_t site : cell.sites) {
+      radius = std::min(radius, sites_.distance_to(site, cell.centre));
+      for (const Side side : {Side::kLeft, Side::kRight}) {
+        if (sites_.is_point(site) ? side == Side::kLeft : allows(wanted_, side)) contacts.push_back({site, side});
+      }
+    }
+    std::ranges::sort(contacts);
+    add({{cell.centre, radius}, 0, NodeKind::kMeeting}, contacts, cell.reach);
+    cluster_cells_.push_back(cluster);
+    clustered_ = std::max(clustered_, 2 * cell.reach);
+  }
+}
+
+std::uint32_t DiagramNodes::root_of(std::uint32_t i) {
+  while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+  return i;
+}
+
+void DiagramNodes::join(std::uint32_t a, std::uint32_t b) {
+  a = root_of(a);
+  b = root_of(b);
+  parent_[std::max(a, b)] = std::min(a, b);
+}
+
+void DiagramNodes::merge(const CellTree& tree) {
+  parent_.resize(nodes_.size());
+  for (std::uint32_t i = 0; i < parent_.size(); ++i) parent_[i] = i;
+  join_coincident();
+  join_clusters(tree);
+  keep_roots();
+}
+
+void DiagramNodes::join_coincident() {
+  std::vector<GridKey> keys;
+  keys.reserve(nodes_.size());
+  for (std::uint32_t i = 0; i < nodes_.size(); ++i) keys.push_back(key_of(nodes_[i].circle.centre, i));
+  std::ranges::sort(keys);
+  const auto join_within = [&](const GridKey& key, std::int64_t dx, std::int64_t dy) {
+    const GridKey cell = {key.x + dx, key.y + dy, 0};
+    for (auto other = std::ranges::lower_bound(keys, cell);
+         other != keys.end() && other->x == cell.x && other->y == cell.y; ++other) {
+      const Circle &a = nodes_[key.node].circle, &b = nodes_[other->node].circle;
+      if (other->node != key.node && distance(a.centre, b.centre) <= merge_distance(std::max(a.radius, b.radius))) {
+        join(key.node, other->node);
+      }
+    }
+  };
+  for (const GridKey& key : keys) {
+    join_within(key, 0, 0);
+    join_within(key, 1, -1);
+    join_within(key, 1, 0);
+    join_within(key, 1, 1);
+    join_within(key, 0, 1);
+  }
+}
+
+/// Cells that touch, and vertices within or beside them.
+void DiagramNodes::join_clusters(const CellTree& tree) {
+  if (cluster_cells_.empty()) return;
+  const auto join_at = [&](std::uint32_t node, Vec2 x) {
+    const auto at = std::ranges::lower_bound(cluster_cells_, tree.node_at(x));
+    if (at == cluster_cells_.end() || *at != tree.node_at(x)) return;
+    join(node, first_cluster_ + static_cast<std::uint32_t>(at - cluster_cells_.begin()));
+  };
+  for (std::uint32_t i = 0; i < cluster_cells_.size(); ++i) {
+    const Cell cell = tree.cell(cluster_cells_[i]);
+    for (std::size_t k = 0; k < cell.corners.size(); ++k) {
+      const Vec2 corner = cell.corners[k], middle = 0.5 * (corner + cell.corners[(k + 1) % cell.corners.size()]);
+      for (const Vec2 x : {corner, middle}) join_at(first_cluster_ + i, x + 0.25 * (x - cell.centre));
+    }
+  }
+  for (std::uint32_t i = 0; i < first_cluster_; ++i) {
+    const double step = merge_distance(nodes_[i].circle.radius);
+    for (const Vec2 way : {Vec2{0, 0}, Vec2{step, 0}, Vec2{-step, 0}, Vec2{0, step}, Vec2{0, -step}}) {
+      join_at(i, nodes_[i].circle.centre + way);
+    }
+  }
+}
+
+void DiagramNodes::keep_roots() {
+  std::vector<std::uint32_t> place(nodes_.size());
+  std::uint32_t count = 0;
+  for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
+    const std::uint32_t root = root_of(i);
+    if (root != i) {  // roots come first
+      std::vector<Contact>& all = contacts_[place[root]];
+      all.insert(all.end(), contacts_[i].begin(), contacts_[i].end());
+      continue;
+    }
+    place[i] = count;
+    nodes_[count] = nodes_[i];
+    if (count != i) contacts_[count] = std::move(contacts_[i]);
+    ++count;
+  }
+  nodes_.resize(count);
+  contacts_.resize(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    std::vector<Contact>& all = contacts_[i];
+    std::ranges::sort(all);
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+  }
+}
+
+void DiagramNodes::index_contacts() {
+  for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
+    for (const Contact contact : contacts_[i]) by_contact_.emplace_back(contact, i);
+  }
+  std::ranges::sort(by_contact_);
+}
+
+std::span<const std::pair<Contact, std::uint32_t>> DiagramNodes::nodes_at(Contact contact) const {
+  const auto begin = std::ranges::lower_bound(by_contact_, std::pair<Contact, std::uint32_t>{contact, 0});
+  const auto end = std::ranges::upper_bound(begin, by_contact_.end(), std::pair<Contact, std::uint32_t>{contact, ~0u});
+  return {begin, end};
+}
+
+void DiagramNodes::find_between(const ContactPair& pair, std::vector<std::uint32_t>& found) const {
+  auto fewer = nodes_at(pair[0]), more = nodes_at(pair[1]);
+  Contact other_contact = pair[1];
+  if (fewer.size() > more.size()) {
+    std::swap(fewer, more);
+    other_contact = pair[0];
+  }
+  found.clear();
+  for (const auto& [contact, node] : fewer) {
+    if (std::ranges::binary_search(more, std::pair(other_contact, node))) found.push_back(node);
+  }
+}
+
+}  // namespace medial_vk::plane

@@ -1,0 +1,50 @@
+// The nodes of a diagram: vertices of its cells, corners of the boundary, and cells that were not divided further, with
+// those that coincide taken as one.
+#pragma once
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "plane/diagram/diagram.h"
+
+namespace medial_vk::plane {
+
+class DiagramNodes {
+ public:
+  DiagramNodes(const SiteSet& sites, const DiagramQuery& query, const CellTree& tree, const DiagramParts& parts);
+
+  std::vector<DiagramNode>& nodes() { return nodes_; }
+  double clustered() const { return clustered_; }
+  /// Of a node, sorted.
+  std::span<const Contact> contacts_of(std::uint32_t node) const { return contacts_[node]; }
+  /// Sets `found` to the nodes that touch both, in their order. Any thread.
+  void find_between(const ContactPair& pair, std::vector<std::uint32_t>& found) const;
+
+ private:
+  void add_vertices(const DiagramParts& parts);
+  void add_corners(const DiagramQuery& query, const CellTree& tree);
+  void add_clusters(const CellTree& tree);
+  void add(const DiagramNode& node, std::span<const Contact> contacts, double size);
+  void merge(const CellTree& tree);
+  void join_coincident();
+  void join_clusters(const CellTree& tree);
+  std::uint32_t root_of(std::uint32_t i);
+  void join(std::uint32_t a, std::uint32_t b);
+  void keep_roots();
+  void index_contacts();
+  std::span<const std::pair<Contact, std::uint32_t>> nodes_at(Contact contact) const;
+
+  const SiteSet& sites_;
+  Wanted wanted_;
+  std::vector<DiagramNode> nodes_;
+  std::vector<double> sizes_;  // of clusters: half a side; of others 0
+  std::vector<std::vector<Contact>> contacts_;
+  std::vector<std::uint32_t> parent_;
+  std::vector<std::uint32_t> cluster_cells_;
+  std::uint32_t first_cluster_ = 0;
+  double clustered_ = 0;
+  std::vector<std::pair<Contact, std::uint32_t>> by_contact_;  // sorted
+};
+
+}  // namespace medial_vk::plane

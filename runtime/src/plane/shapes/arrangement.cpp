@@ -1,0 +1,245 @@
+#include "plane/shapes/arrangement.h"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "plane/diagram/cell_tree.h"
+#include "plane/shapes/orientation.h"
+
+namespace medial_vk::plane {
+namespace {
+
+// A cut moves the parts of a segment by rounding, which can make them meet others: then once more. Two rounds suffice
+// but for segments that nearly coincide.
+constexpr int kMostRounds = 24;
+
+/// Where a segment is to be cut.
+struct Cut {
+  std::uint32_t edge;
+  double position;  // along the segment
+  std::uint32_t point;
+
+  friend constexpr auto operator<=>(const Cut&, const Cut&) = default;
+};
+
+/// What two edges, or an edge and a point, have in common.
+struct Meeting {
+  std::uint32_t first, second;  // sites
+  friend constexpr auto operator<=>(const Meeting&, const Meeting&) = default;
+};
+
+/// The meetings in a diagram's cells: sites that meet are both nearest where they do.
+class Meetings {
+ public:
+  Meetings(const SiteSet& sites, unsigned threads, const LoopWatch& watch) : sites_(sites) {
+    DiagramQuery query;
+    query.wanted = Wanted::kBothSides;
+    query.object_angle = 2;  // above every angle: cells without boundary are dismissed
+    query.slack = 2 * kSnap;
+    query.threads = threads;
+    const CellTree tree = CellTree::build(sites, query, watch);
+    for (std::uint32_t node = 0; node < tree.size(); ++node) {
+      if (tree.state(node) == CellState::kLeaf || tree.state(node) == CellState::kClustered) add(tree.cell(node).sites);
+    }
+    std::ranges::sort(all_);
+    all_.erase(std::unique(all_.begin(), all_.end()), all_.end());
+  }
+
+  const std::vector<Meeting>& all() const { return all_; }
+
+ private:
+  void add(std::span<const std::uint32_t> list) {
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      for (std::size_t k = i + 1; k < list.size(); ++k) {
+        const std::uint32_t a = std::min(list[i], list[k]), b = std::max(list[i], list[k]);
+        if (meet(a, b)) all_.push_back({a, b});
+      }
+    }
+  }
+
+  bool meet(std::uint32_t a, std::uint32_t b) const {
+    if (sites_.are_joined(a, b)) return false;
+    if (sites_.is_point(b)) return distance(sites_.point(a), sites_.point(b)) <= 2 * kSnap;
+    if (sites_.is_point(a)) return sites_.distance_to(b, sites_.point(a)) <= kSnap;
+    return cross(sites_.segment(a).ends, sites_.segment(b).ends);
+  }
+
+  /// In a point that is an end of neither.
+  bool cross(const std::array<std::uint32_t, 2>& a, const std::array<std::uint32_t, 2>& b) const {
+    for (const std::uint32_t end : a) {
+      if (end == b[0] || end == b[1]) return false;
+    }
+    const Vec2 p = sites_.point(a[0]), q = sites_.point(a[1]), r = sites_.point(b[0]), s = sites_.point(b[1]);
+    return orientation(p, q, r) * orientation(p, q, s) < 0 && orientation(r, s, p) * orientation(r, s, q) < 0;
+  }
+
+  const SiteSet& sites_;
+  std::vector<Meeting> all_;
+};
+
+/// Edges with the lesser end first, each once, those of a single point left out.
+void unite(std::vector<CountedEdge>& edges) {
+  std::erase_if(edges, [](const CountedEdge& e) { return e.ends[0] == e.ends[1]; });
+  for (CountedEdge& e : edges) {
+    if (e.ends[0] < e.ends[1]) continue;
+    std::swap(e.ends[0], e.ends[1]);
+    e.times = -e.times;
+  }
+  std::ranges::sort(edges);
+  std::size_t kept = 0;
+  for (const CountedEdge& e : edges) {
+    if (kept > 0 && edges[kept - 1].ends == e.ends) {
+      edges[kept - 1].times += e.times;
+    } else {
+      edges[kept++] = e;
+    }
+  }
+  edges.resize(kept);
+}
+
+class Arranger {
+ public:
+  Arranger(std::vector<Vec2> points, const std::vector<CountedEdge>& edges, const Frame& frame) : frame_(frame) {
+    result_.points = std::move(points);
+    result_.edges = edges;
+  }
+
+  /// Whether anything met.
+  bool round(unsigned threads, const LoopWatch& watch) {
+    unite_points();
+    const SiteSet sites = sites_in_use();
+    const Meetings meetings(sites, threads, watch);
+    if (meetings.all().empty()) return false;
+    target_.resize(result_.points.size());
+    for (std::uint32_t i = 0; i < target_.size(); ++i) target_[i] = i;
+    cuts_.clear();
+    const auto old_points = static_cast<std::uint32_t>(result_.points.size());
+    for (const Meeting& m : meetings.all()) apply(sites, m);
+    cut_edges(old_points);
+    return true;
+  }
+
+  /// Points with the same coordinates become one, so that no edge is without length.
+  void unite_points() {
+    merge_equal_points();
+    unite(result_.edges);
+  }
+
+  Arrangement& result() { return result_; }
+
+ private:
+  void merge_equal_points() {
+    std::vector<std::uint32_t> order(result_.points.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+    const std::vector<Vec2>& points = result_.points;
+    std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
+      return precedes(points[a], points[b]) || (points[a] == points[b] && a < b);
+    });
+    target_.resize(points.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const bool is_copy = i > 0 && points[order[i]] == points[order[i - 1]];
+      target_[order[i]] = is_copy ? target_[order[i - 1]] : order[i];
+    }
+    for (CountedEdge& e : result_.edges) e.ends = {target_[e.ends[0]], target_[e.ends[1]]};
+  }
+
+  /// The edges and their ends, without points that became others.
+  SiteSet sites_in_use() {
+    constexpr std::uint32_t kUnused = ~0u;
+    std::vector<std::uint32_t> place(result_.points.size(), kUnused);
+    std::vector<Vec2> points;
+    std::vector<SiteSet::Edge> ends;
+    in_use_.clear();
+    ends.reserve(result_.edges.size());
+    for (const CountedEdge& e : result_.edges) {
+      for (const std::uint32_t end : e.ends) {
+        if (place[end] != kUnused) continue;
+        place[end] = static_cast<std::uint32_t>(points.size());
+        points.push_back(result_.points[end]);
+        in_use_.push_back(end);
+      }
+      ends.push_back({place[e.ends[0]], place[e.ends[1]]});
+    }
+    return SiteSet(std::move(points), ends, {}, {});
+  }
+
+  std::uint32_t root_of(std::uint32_t i) {
+    while (target_[i] != i) i = target_[i] = target_[target_[i]];
+    return i;
+  }
+
+  void apply(const SiteSet& sites, const Meeting& m) {
+    const std::uint32_t first_edge = sites.points();
+    if (sites.is_point(m.first) && sites.is_point(m.second)) {
+      const std::uint32_t a = root_of(in_use_[m.first]), b = root_of(in_use_[m.second]);
+      target_[std::max(a, b)] = std::min(a, b);
+      result_.merged_points += a == b ? 0 : 1;
+    } else if (sites.is_point(m.first)) {
+      const Segment& s = sites.segment(m.second);
+      const double position = s.position(sites.point(m.first));
+      // Near an end the points are merged.
+      if (std::min(position, s.length - position) <= kSnap) return;
+      cuts_.push_back({m.second - first_edge, position, in_use_[m.first]});
+      ++result_.touching_points;
+    } else {
+      add_crossing(sites, m);
+    }
+  }
+
+  void add_crossing(const SiteSet& sites, const Meeting& m) {
+    const Segment &a = sites.segment(m.first), &b = sites.segment(m.second);
+    const double at_begin = b.height(a.begin, Side::kLeft);
+    const double at_end = b.height(sites.point(a.ends[1]), Side::kLeft);
+    const double share = std::clamp(at_begin / (at_begin - at_end), 0.0, 1.0);
+    const Vec2 x = frame_.representable(a.begin + share * a.length * a.along);
+    for (const Segment* s : {&a, &b}) {
+      for (const std::uint32_t end : s->ends) {
+        if (distance(x, sites.point(end)) <= kSnap) return;  // the end lies on the other segment
+      }
+    }
+    const auto point = static_cast<std::uint32_t>(result_.points.size());
+    result_.points.push_back(x);
+    for (const std::uint32_t site : {m.first, m.second}) {
+      cuts_.push_back({site - sites.points(), sites.segment(site).position(x), point});
+    }
+    ++result_.crossings;
+  }
+
+  void cut_edges(std::uint32_t old_points) {
+    std::ranges::sort(cuts_);
+    std::vector<CountedEdge> parts;
+    std::size_t next = 0;
+    const auto at = [&](std::uint32_t point) { return point < old_points ? root_of(point) : point; };
+    for (std::uint32_t e = 0; e < result_.edges.size(); ++e) {
+      const CountedEdge edge = result_.edges[e];
+      std::uint32_t from = edge.ends[0];
+      for (; next < cuts_.size() && cuts_[next].edge == e; ++next) {
+        parts.push_back({{at(from), at(cuts_[next].point)}, edge.times});
+        from = cuts_[next].point;
+      }
+      parts.push_back({{at(from), at(edge.ends[1])}, edge.times});
+    }
+    unite(parts);
+    result_.edges = std::move(parts);
+  }
+
+  const Frame& frame_;
+  Arrangement result_;
+  std::vector<std::uint32_t> target_;  // by point: the one that stands for it
+  std::vector<std::uint32_t> in_use_;  // by site: the point
+  std::vector<Cut> cuts_;
+};
+
+}  // namespace
+
+Arrangement arrange(std::vector<Vec2> points, const std::vector<CountedEdge>& edges, const Frame& frame,
+                    unsigned threads, const LoopWatch& watch) {
+  Arranger arranger(std::move(points), edges, frame);
+  for (int round = 0; round < kMostRounds && arranger.round(threads, watch); ++round) {
+  }
+  arranger.unite_points();
+  return std::move(arranger.result());
+}
+
+}  // namespace medial_vk::plane

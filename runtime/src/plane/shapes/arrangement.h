@@ -1,0 +1,35 @@
+// Segments that are cut wherever they cross or touch, so that they meet in common points only.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <vector>
+
+#include "base/loop_watch.h"
+#include "plane/sites/frame.h"
+
+namespace medial_vk::plane {
+
+/// A segment between two points, traversed `times` more often from the first to the second than back.
+struct CountedEdge {
+  std::array<std::uint32_t, 2> ends = {};
+  std::int32_t times = 1;
+
+  friend constexpr auto operator<=>(const CountedEdge&, const CountedEdge&) = default;
+};
+
+struct Arrangement {
+  std::vector<Vec2> points;        ///< The given ones first.
+  std::vector<CountedEdge> edges;  ///< Sorted; each pair of ends once, the lesser first; `times` may be 0.
+  std::size_t merged_points = 0, crossings = 0, touching_points = 0;
+};
+
+/// Two points this close are one, and a point this close to a segment lies on it. Of coordinates within [-1/2, 1/2].
+inline constexpr double kSnap = 0x1p-44;
+
+/// Points at crossings are representable in `frame`. Throws std::bad_alloc and LoopStopped.
+Arrangement arrange(std::vector<Vec2> points, const std::vector<CountedEdge>& edges, const Frame& frame,
+                    unsigned threads, const LoopWatch& watch);
+
+}  // namespace medial_vk::plane
