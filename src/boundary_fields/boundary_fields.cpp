@@ -87,7 +87,7 @@ std::string_view kind_name(ThicknessKind kind) {
 
 std::string_view state_name(CurvatureState state) {
   constexpr std::array<std::string_view, kCurvatureStates> kNames = {
-      "known", "cut", "curve", "point", "seam", "few", "nested", "focal", "uncertain", "exposed"};
+      "known", "cut", "curve", "point", "seam", "few", "nested", "focal", "uncertain", "exposed", "edge"};
   return kNames[static_cast<std::size_t>(state)];
 }
 

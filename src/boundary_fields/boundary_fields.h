@@ -69,6 +69,6 @@ inline constexpr std::array<ThicknessKind, 5> kThicknessKinds = {
 
 /// "known", "cut" and so on: the words of the files for the numbers of a state.
 std::string_view state_name(CurvatureState state);
-inline constexpr std::size_t kCurvatureStates = 10;
+inline constexpr std::size_t kCurvatureStates = 11, kTipStates = 10;  ///< Tips have all but the last one.
 
 }  // namespace medial_vk

@@ -90,14 +90,17 @@ CurvatureRecord summarise_curvature(const Mesh& mesh, const BoundaryFields& fiel
   record.kappa_1 = range_of(kappa_1);
   record.kappa_2 = range_of(kappa_2);
   const std::vector<double> areas = areas_of_vertices(mesh);
+  const BoundaryField& states = *fields.find(field_names::kCurvatureState);
   double all = 0, unknown = 0, none = 0;
   for (std::size_t i = 0; i < areas.size(); ++i) {
     all += areas[i];
+    record.state_shares[static_cast<std::size_t>(states.values[i])] += areas[i];
     if (std::isnan(kappa_1.values[i]) || std::isnan(kappa_2.values[i])) unknown += areas[i];
     if (std::isnan(kappa_1.values[i]) && std::isnan(kappa_2.values[i])) none += areas[i];
   }
   record.unknown_share = all > 0 ? unknown / all : 0;
   record.none_share = all > 0 ? none / all : 0;
+  for (double& share : record.state_shares) share = all > 0 ? share / all : 0;
   std::vector<double> errors = fields.find(field_names::kCurvatureError)->values;
   std::erase_if(errors, [](double error) { return std::isnan(error); });
   if (!errors.empty()) record.median_error = median_of(std::move(errors));

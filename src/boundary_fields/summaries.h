@@ -51,10 +51,11 @@ struct CurvatureRecord {
   struct Range {
     double least = 0, greatest = 0;
   };
-  std::optional<Range> kappa_1, kappa_2;  ///< None: unknown at all vertices.
-  double unknown_share = 0;               ///< Of the area: where a curvature is not known.
-  double none_share = 0;                  ///< Of the area: where neither is.
-  std::optional<double> median_error;     ///< Over vertices with an estimate; none: there are none.
+  std::optional<Range> kappa_1, kappa_2;                   ///< None: unknown at all vertices.
+  double unknown_share = 0;                                ///< Of the area: where a curvature is not known.
+  double none_share = 0;                                   ///< Of the area: where neither is.
+  std::optional<double> median_error;                      ///< Over vertices with an estimate; none: there are none.
+  std::array<double, kCurvatureStates> state_shares = {};  ///< Of the area, by state.
 };
 
 /// `fields` hold curvatures.

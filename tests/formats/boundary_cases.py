@@ -70,7 +70,7 @@ def expect_sense(points, triangles, data):
     # Opposite normals, and others.
     assert np.all((data["thickness_kind"] == 4) == (data["object_angle"] >= 1.2)) and 4 in data["thickness_kind"]
     assert np.all((data["thickness_kind"] == 1) == (data["object_angle"] < 0.25))
-    assert set(np.unique(data["curvature_state"])) <= set(range(9)) and data["sheet"].min() >= -1
+    assert set(np.unique(data["curvature_state"])) <= set(range(11)) and data["sheet"].min() >= -1
 
 
 def expect_same(found, wanted):

@@ -60,6 +60,9 @@ enum class CurvatureState : std::uint8_t {
   /// direction of a part of its sphere that no other ball covers, and `normal_error` the greatest angle in that part.
   /// Where tips around it allow a fit, spoke and curvatures are those of the fit; otherwise the curvatures are NaN.
   kExposed,
+  /// Of vertices alone. Unknown: the vertex is at an edge of the solid, or beyond the last tips of a sheet that does
+  /// not end in a cap there.
+  kEdge,
 };
 
 /// True for the states in which both curvatures and the spoke are values from fits or differences along a sheet.
@@ -113,11 +116,11 @@ struct SpokePair {
 /// with the stages "sheets", "regions" (exposed ones), "tips" and "windows"; kDifferences does not call it. `stop` ends
 /// the fits of sheets and tips, the search for exposed regions and the choice of windows, and the differences, within
 /// some milliseconds; the estimate of the spacing, the search for neighbours, the thinning of balls and tips and the
-/// smoothing of spokes run to their ends first. Time of kFits: about a millisecond of one core, and memory: 3 kB, for
-/// each of balls spread evenly; more where many lie within one spacing. Does not throw. Errors: kUsage (a number that
-/// is not finite, a coordinate, radius, spacing or step beyond 1e18, a radius that is not positive, a spoke that is not
-/// of unit length, an option out of range, numbers of balls and spokes that differ, no spokes for kDifferences, 2^31
-/// balls or more), kInterrupted, kOutOfMemory.
+/// smoothing of spokes run to their ends first. Time of kFits: about a third of a millisecond of one core, and memory:
+/// 3 kB, for each of balls spread evenly; more where many lie within one spacing. Does not throw. Errors: kUsage (a
+/// number that is not finite, a coordinate, radius, spacing or step beyond 1e18, a radius that is not positive, a spoke
+/// that is not of unit length, an option out of range, numbers of balls and spokes that differ, no spokes for
+/// kDifferences, 2^31 balls or more), kInterrupted, kOutOfMemory.
 Result<BoundaryCurvature> measure_curvature(std::span<const Ball> balls, const CurvatureOptions& options = {},
                                             std::span<const SpokePair> spokes = {}, const StageProgress& progress = {},
                                             const std::stop_token& stop = {});

@@ -6,8 +6,10 @@ namespace medial_vk {
 namespace {
 
 constexpr std::size_t kSteps = kWindows.size();
-constexpr double kSameSide = 0.7;     // of spokes of tips that are compared
-constexpr double kLeastReach = 10.0;  // spacings from a tip to others whose windows tell what is usual
+constexpr double kSameSide = 0.7;      // of spokes of tips that are compared
+constexpr double kAnchorShare = 0.16;  // of a window's radius: how far patches are apart
+constexpr double kBlendShare = 0.3;    // within which they are blended
+constexpr double kLeastReach = 10.0;   // spacings from a tip to others whose windows tell what is usual
 
 double angle_of(const Point& a, const Point& b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
 
@@ -42,6 +44,66 @@ void compact(const std::vector<std::uint8_t>& is_used, LadderStep& step) {
   }
   cloud.tips.resize(known);
   cloud.normals.resize(known);
+}
+
+/// The tips with patches: those of lower numbers first, and none nearer than `distance` to another one on its side.
+/// Every tip has one within that distance.
+std::vector<std::uint32_t> anchors_of(const TipCloud& cloud, const PointGrid& grid, double distance) {
+  std::vector<std::uint8_t> is_free(cloud.tips.size(), 1);
+  std::vector<std::uint32_t> out;
+  out.reserve(cloud.tips.size());
+  for (std::uint32_t i = 0; i < is_free.size(); ++i) {
+    if (is_free[i] == 0) continue;
+    out.push_back(i);
+    grid.visit_within(cloud.tips[i], distance, [&](std::uint32_t other, double) {
+      if (are_on_one_side(cloud.normals[i], cloud.normals[other])) is_free[other] = 0;
+    });
+  }
+  return out;
+}
+
+TipCloud part_of(const TipCloud& cloud, std::span<const std::uint32_t> numbers) {
+  TipCloud out;
+  out.tips.reserve(numbers.size());
+  out.normals.reserve(numbers.size());
+  for (const std::uint32_t i : numbers) {
+    out.tips.push_back(cloud.tips[i]);
+    out.normals.push_back(cloud.normals[i]);
+  }
+  return out;
+}
+
+/// From sums over patches to their mean.
+TipFit mean_of(TipFit sum, double weights) {
+  const double size = length(sum.normal);
+  if (!(size > 0)) return {};
+  sum.is_known = true;
+  sum.normal = 1 / size * sum.normal;
+  sum.form /= weights;
+  sum.spread /= weights;
+  return sum;
+}
+
+/// The mean of the patches on the same side within `reach`, each at its own place over the tip. Not known where one of
+/// them is not: there the boundary bends too much within the window, or tips end, and the others would be continued
+/// beyond what they were fitted to.
+TipFit blend(std::span<const TipPatch> patches, const TipCloud& middles, const PointGrid& grid, const Point& tip,
+             const Point& normal, double reach) {
+  TipFit sum;
+  double weights = 0, nearest = 2 * reach * reach;
+  bool are_all_known = true;
+  grid.visit_within(tip, reach, [&](std::uint32_t i, double squared) {
+    if (!are_all_known || !are_on_one_side(middles.normals[i], normal)) return;
+    are_all_known = patches[i].is_known;
+    const double left = 1 - squared / (reach * reach), weight = left * left;
+    if (!are_all_known || !(weight > 0)) return;
+    patches[i].add_at(tip, weight, sum);
+    weights += weight;
+    if (squared >= nearest) return;
+    nearest = squared;
+    sum.is_cut = patches[i].is_cut;
+  });
+  return are_all_known ? mean_of(sum, weights) : TipFit{};
 }
 
 }  // namespace
@@ -135,54 +197,91 @@ void FitLadder::add_exposed(const SheetLinks& links, unsigned threads, Uses& use
 void FitLadder::fit_tips(std::size_t step, double radius, unsigned threads) {
   LadderStep& at = steps_[step];
   at.fits.resize(2 * at.is_cut.size());
-  const PointGrid grid(at.cloud.tips, radius / 3);
-  at.is_kept.resize(at.numbers.size());
-  const auto is_of_sheet = [&](std::uint32_t tip) -> std::uint8_t { return exposed_of_[tip / 2] == kNone ? 1 : 0; };
-  std::ranges::transform(at.numbers, at.is_kept.begin(), is_of_sheet);
-  thin_out(at.cloud.tips, grid, kThinning * radius, at.is_kept);
+  const double apart = kAnchorShare * radius;
+  std::vector<std::uint32_t> kept, anchors;
+  {
+    const PointGrid grid(at.cloud.tips, apart);
+    at.is_kept.resize(at.numbers.size());
+    const auto is_of_sheet = [&](std::uint32_t tip) -> std::uint8_t { return exposed_of_[tip / 2] == kNone ? 1 : 0; };
+    std::ranges::transform(at.numbers, at.is_kept.begin(), is_of_sheet);
+    thin_out(at.cloud.tips, grid, kThinning * radius, at.is_kept);
+    anchors = anchors_of(at.cloud, grid, apart);
+  }
+  kept.reserve(at.numbers.size());
+  for (std::uint32_t i = 0; i < at.is_kept.size(); ++i) {
+    if (at.is_kept[i] != 0) kept.push_back(i);
+  }
+  const TipCloud members = part_of(at.cloud, kept), middles = part_of(at.cloud, anchors);
+  const PointGrid around(members.tips, radius / 3);
+  const auto patch_at = [&](std::uint32_t i) { return fit_patch(at.cloud, i, members, around, radius, step > 1); };
+  std::vector<TipPatch> patches(anchors.size());
+  parallel_for(anchors.size(), 16, threads, [&](std::size_t i) {
+    if (!stop_.stop_requested()) patches[i] = patch_at(anchors[i]);
+  });
+  const double reach = kBlendShare * radius;
+  const PointGrid grid(middles.tips, reach);
   parallel_for(at.numbers.size(), 64, threads, [&](std::size_t i) {
     if (stop_.stop_requested()) return;
-    at.fits[at.numbers[i]] = fit_tip(at.cloud, at.is_kept, grid, static_cast<std::uint32_t>(i), radius, step > 1);
+    const Point& tip = at.cloud.tips[i];
+    TipFit& fit = at.fits[at.numbers[i]];
+    fit = blend(patches, middles, grid, tip, at.cloud.normals[i], reach);
+    if (fit.is_known) return;
+    const TipPatch own = patch_at(static_cast<std::uint32_t>(i));
+    if (!own.is_known) return;
+    own.add_at(tip, 1, fit);
+    fit.is_cut = own.is_cut;
+    fit = mean_of(fit, 1);
   });
 }
 
 void FitLadder::choose(double spacing, unsigned threads) {
   const std::size_t count = steps_[0].fits.size();
   std::array<std::vector<WidthDifference>, kSteps> differences;
-  for (std::size_t k = 1; k < kSteps; ++k) differences[k] = differences_of(steps_[k], steps_[k - 1]);
-  choices_.resize(count);
   for (std::size_t k = 1; k < kSteps; ++k) {
-    // The upper quartile over the tips around, in the place of the value of one: within a facet, narrow windows agree,
-    // and those across its edges do not.
-    std::vector<WidthDifference> usual(count, WidthDifference{std::nan(""), std::nan("")});
-    const TipCloud& cloud = steps_[k].cloud;
-    const std::vector<std::uint32_t>& numbers = steps_[k].numbers;
     const double reach = std::max(kWindows[k] / 2, kLeastReach) * spacing;
-    const PointGrid grid(cloud.tips, reach / 2);
-    parallel_for(numbers.size(), 64, threads, [&](std::size_t place) {
-      const std::uint32_t i = numbers[place];
-      if (stop_.stop_requested() || std::isnan(differences[k][i].form)) return;
-      std::vector<double> forms, angles;
-      grid.visit_within(cloud.tips[place], reach, [&](std::uint32_t other, double) {
-        const WidthDifference& there = differences[k][numbers[other]];
-        if (steps_[k].is_kept[other] == 0 || std::isnan(there.form)) return;
-        if (dot(cloud.normals[other], cloud.normals[place]) < kSameSide) return;
-        forms.push_back(there.form);
-        angles.push_back(there.angle);
-      });
-      if (forms.empty()) return;
-      // A tip that differs by more than twice what is usual around it is a stray.
-      const WidthDifference& own = differences[k][i];
-      usual[i] = {std::sqrt(std::max(upper_quartile(forms), own.form / 4)),
-                  std::sqrt(std::max(upper_quartile(angles), own.angle / 4))};
-    });
-    differences[k] = std::move(usual);
+    differences[k] = usual_of(steps_[k], differences_of(steps_[k], steps_[k - 1]), reach, threads);
   }
+  choices_.resize(count);
   parallel_for(count, 1024, threads, [&](std::size_t i) {
     std::array<WidthDifference, kSteps> of_tip = {};
     for (std::size_t k = 1; k < kSteps; ++k) of_tip[k] = differences[k][i];
     choices_[i] = choose_width(of_tip);
   });
+}
+
+/// The upper quartile over the tips around, in the place of the value of one: within a facet, narrow windows agree, and
+/// those across its edges do not.
+std::vector<WidthDifference> FitLadder::usual_of(const LadderStep& step, std::span<const WidthDifference> squares,
+                                                 double reach, unsigned threads) const {
+  std::vector<std::uint32_t> witnesses;  // places in the cloud
+  witnesses.reserve(step.numbers.size());
+  for (std::uint32_t place = 0; place < step.numbers.size(); ++place) {
+    if (step.is_kept[place] != 0 && !std::isnan(squares[step.numbers[place]].form)) witnesses.push_back(place);
+  }
+  const TipCloud around = part_of(step.cloud, witnesses);
+  const PointGrid grid(around.tips, reach / 2);
+  std::vector<WidthDifference> usual(squares.size(), WidthDifference{std::nan(""), std::nan("")});
+  parallel_blocks(step.numbers.size(), 256, threads, [&](std::size_t begin, std::size_t end) {
+    std::vector<double> forms, angles;
+    for (std::size_t place = begin; place < end && !stop_.stop_requested(); ++place) {
+      const std::uint32_t i = step.numbers[place];
+      const WidthDifference& own = squares[i];
+      if (std::isnan(own.form)) continue;
+      forms.clear();
+      angles.clear();
+      grid.visit_within(step.cloud.tips[place], reach, [&](std::uint32_t other, double) {
+        if (dot(around.normals[other], step.cloud.normals[place]) < kSameSide) return;
+        const WidthDifference& there = squares[step.numbers[witnesses[other]]];
+        forms.push_back(there.form);
+        angles.push_back(there.angle);
+      });
+      if (forms.empty()) continue;
+      // A tip that differs by more than twice what is usual around it is a stray.
+      usual[i] = {std::sqrt(std::max(upper_quartile(forms), own.form / 4)),
+                  std::sqrt(std::max(upper_quartile(angles), own.angle / 4))};
+    }
+  });
+  return usual;
 }
 
 }  // namespace medial_vk

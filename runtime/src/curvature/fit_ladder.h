@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <stop_token>
 #include <vector>
 
@@ -57,6 +58,8 @@ class FitLadder {
   void add_exposed(const SheetLinks& links, unsigned threads, Uses& used);
   void fit_tips(std::size_t step, double radius, unsigned threads);
   void choose(double spacing, unsigned threads);
+  std::vector<WidthDifference> usual_of(const LadderStep& step, std::span<const WidthDifference> squares, double reach,
+                                        unsigned threads) const;
 
   std::array<LadderStep, kWindows.size()> steps_;
   std::vector<WidthChoice> choices_;

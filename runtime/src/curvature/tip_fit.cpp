@@ -1,20 +1,18 @@
 #include "curvature/tip_fit.h"
 
-#include "curvature/polynomial_fit.h"
 #include "curvature/robust_weights.h"
 #include "curvature/window_gap.h"
 
 namespace medial_vk {
 namespace {
 
-constexpr int kDegree = 4, kTerms = terms_of(kDegree);
-using Coefficients = Eigen::Matrix<double, kTerms, 1>;
-
-constexpr double kSimilarSpokes = 0.4;  // the slopes of those farther away are too steep for a height
+constexpr int kDegree = TipPatch::kDegree, kTerms = TipPatch::kTerms;
+using Coefficients = TipPatch::Coefficients;
 
 // On a cylinder of radius R the mean of the spokes of a window has the length 1 - (W / R)^2 / 16: here W = 1.26 R.
 // Wider windows end where spokes are too steep, not at their radius, and would agree with each other.
 constexpr double kLeastAlignment = 0.9;
+constexpr double kLeastSteep = 0.2;  // of a spoke along the mean of its window: others are too steep for slopes
 
 /// A tip in the frame of the fit, in units of the window's radius.
 struct FramedTip {
@@ -23,19 +21,14 @@ struct FramedTip {
   double weight;
 };
 
-/// A plane across the mean spoke of a window.
-struct HeightFrame {
-  Point x, y, up;
-};
-
 struct FramedWindow {
   HeightFrame frame;
   double alignment = 0;  ///< The length of the mean spoke.
   std::vector<FramedTip> tips;
 };
 
-FramedWindow window_around(const TipCloud& cloud, std::span<const std::uint8_t> is_kept, const PointGrid& grid,
-                           std::uint32_t tip, double radius) {
+FramedWindow window_around(const Point& tip, const Point& outward, const TipCloud& members, const PointGrid& grid,
+                           double radius) {
   struct Near {
     std::uint32_t tip;
     double weight;
@@ -43,24 +36,24 @@ FramedWindow window_around(const TipCloud& cloud, std::span<const std::uint8_t> 
   std::vector<Near> near;
   Point sum = {0, 0, 0};
   double weights = 0;
-  grid.visit_within(cloud.tips[tip], radius, [&](std::uint32_t other, double squared) {
-    if (is_kept[other] == 0 || dot(cloud.normals[other], cloud.normals[tip]) <= kSimilarSpokes) return;
+  grid.visit_within(tip, radius, [&](std::uint32_t other, double squared) {
+    if (!are_on_one_side(members.normals[other], outward)) return;
     const double left = 1 - squared / (radius * radius);
     near.push_back({other, left * left});
     weights += left * left;
-    sum = sum + near.back().weight * cloud.normals[other];
+    sum = sum + near.back().weight * members.normals[other];
   });
   FramedWindow window;
-  if (near.empty()) return window;  // the tip itself is one of them, if it is kept
+  if (near.empty()) return window;
   window.frame.up = 1 / length(sum) * sum;
   window.alignment = length(sum) / weights;
   window.frame.x = perpendicular_to(window.frame.up);
   window.frame.y = cross(window.frame.up, window.frame.x);
   window.tips.reserve(near.size());
   for (const Near& at : near) {
-    const Point offset = 1 / radius * (cloud.tips[at.tip] - cloud.tips[tip]), &normal = cloud.normals[at.tip];
+    const Point offset = 1 / radius * (members.tips[at.tip] - tip), &normal = members.normals[at.tip];
     const double steep = dot(normal, window.frame.up);
-    if (steep < kSimilarSpokes / 2) continue;
+    if (steep < kLeastSteep) continue;
     window.tips.push_back({dot(offset, window.frame.x),
                            dot(offset, window.frame.y),
                            dot(offset, window.frame.up),
@@ -140,32 +133,57 @@ void leave_out_strays(std::vector<FramedTip>& tips, const Coefficients& c) {
   for (std::size_t i = 0; i < tips.size(); ++i) tips[i].weight *= of_height(heights[i]) * of_slope(slopes[i]);
 }
 
-/// The form of the graph of a polynomial at the origin, in space. With the slopes p, the second derivatives H and
-/// s = sqrt(1 + |p|^2), its normal is (-p, 1) / s and its second fundamental form -H / s where convex is positive; the
-/// rows of the pseudo-inverse J^+ of J = (I; p^T) take it to space: form = J^+^T (-H / s) J^+.
-void set_form(const Coefficients& c, const HeightFrame& frame, double radius, TipFit& out) {
-  const Eigen::Vector2d p(c[1], c[2]);
-  Eigen::Matrix2d hessian;
-  hessian << 2 * c[3], c[4], c[4], 2 * c[5];
-  const double s = std::sqrt(1 + p.squaredNorm());
-  Eigen::Matrix<double, 3, 2> tangents;
-  for (int k = 0; k < 3; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    tangents(k, 0) = frame.x[i] + p[0] * frame.up[i];
-    tangents(k, 1) = frame.y[i] + p[1] * frame.up[i];
-    out.normal[i] = (frame.up[i] - p[0] * frame.x[i] - p[1] * frame.y[i]) / s;
+/// Slopes and second derivatives of a polynomial at a place.
+struct Derivatives {
+  Eigen::Vector2d slopes = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d second = Eigen::Matrix2d::Zero();
+};
+
+Derivatives derivatives_at(const Coefficients& c, double x, double y) {
+  Derivatives out;
+  const auto monomials = monomials_at<kDegree>(x, y);
+  for (int degree = 1, at = 1; degree <= kDegree; ++degree) {
+    for (int of_y = 0; of_y <= degree; ++of_y, ++at) {
+      const int of_x = degree - of_y;
+      if (of_x > 0) out.slopes[0] += c[at] * of_x * monomials[term_of(of_x - 1, of_y)];
+      if (of_y > 0) out.slopes[1] += c[at] * of_y * monomials[term_of(of_x, of_y - 1)];
+      if (of_x > 1) out.second(0, 0) += c[at] * (of_x * (of_x - 1)) * monomials[term_of(of_x - 2, of_y)];
+      if (of_y > 1) out.second(1, 1) += c[at] * (of_y * (of_y - 1)) * monomials[term_of(of_x, of_y - 2)];
+      if (of_x > 0 && of_y > 0) out.second(0, 1) += c[at] * (of_x * of_y) * monomials[term_of(of_x - 1, of_y - 1)];
+    }
   }
-  const Eigen::Matrix2d metric = tangents.transpose() * tangents;
-  const Eigen::Matrix<double, 3, 2> dual = tangents * metric.inverse();
-  out.form = dual * (hessian * (-1 / (s * radius))) * dual.transpose();
+  out.second(1, 0) = out.second(0, 1);
+  return out;
 }
 
 }  // namespace
 
-TipFit fit_tip(const TipCloud& cloud, std::span<const std::uint8_t> is_kept, const PointGrid& grid, std::uint32_t tip,
-               double radius, bool is_wide) {
-  TipFit out;
-  FramedWindow window = window_around(cloud, is_kept, grid, tip, radius);
+/// With the slopes p, the second derivatives H and s = sqrt(1 + |p|^2), the normal of a graph is (-p, 1) / s and its
+/// second fundamental form -H / s where convex is positive; the rows of the pseudo-inverse J^+ of J = (I; p^T) take it
+/// to space: form = J^+^T (-H / s) J^+.
+void TipPatch::add_at(const Point& p, double weight, TipFit& sum) const {
+  const Point offset = 1 / radius * (p - origin);
+  const Derivatives at = derivatives_at(coefficients, dot(offset, frame.x), dot(offset, frame.y));
+  const double s = std::sqrt(1 + at.slopes.squaredNorm());
+  Eigen::Matrix<double, 3, 2> tangents;
+  for (int k = 0; k < 3; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    tangents(k, 0) = frame.x[i] + at.slopes[0] * frame.up[i];
+    tangents(k, 1) = frame.y[i] + at.slopes[1] * frame.up[i];
+    sum.normal[i] += weight * (frame.up[i] - at.slopes[0] * frame.x[i] - at.slopes[1] * frame.y[i]) / s;
+  }
+  const Eigen::Matrix2d metric = tangents.transpose() * tangents;
+  const Eigen::Matrix<double, 3, 2> dual = tangents * metric.inverse();
+  sum.form += dual * (at.second * (-weight / (s * radius))) * dual.transpose();
+  sum.spread += weight * spread;
+}
+
+TipPatch fit_patch(const TipCloud& cloud, std::uint32_t tip, const TipCloud& members, const PointGrid& grid,
+                   double radius, bool is_wide) {
+  TipPatch out;
+  out.origin = cloud.tips[tip];
+  out.radius = radius;
+  FramedWindow window = window_around(cloud.tips[tip], cloud.normals[tip], members, grid, radius);
   if (window.tips.size() < kTerms || (is_wide && window.alignment < kLeastAlignment)) return out;
   HeightFit fit;
   fit.slope_weight = 0.01;
@@ -173,7 +191,8 @@ TipFit fit_tip(const TipCloud& cloud, std::span<const std::uint8_t> is_kept, con
   leave_out_strays(window.tips, fit.coefficients);
   if (!fit_window(window.tips, fit)) return out;
   out.is_cut = has_gap(window.tips);
-  set_form(fit.coefficients, window.frame, radius, out);
+  out.frame = window.frame;
+  out.coefficients = fit.coefficients;
   const double worst = 4 * std::max(fit.equations.inverse_diagonal(3), fit.equations.inverse_diagonal(5));
   out.spread = std::sqrt(fit.mean_square * worst) / radius;
   out.is_known = true;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "curvature/point_grid.h"
+#include "curvature/polynomial_fit.h"
 
 namespace medial_vk {
 
@@ -26,10 +27,38 @@ struct TipFit {
   double spread = 0;  ///< Standard deviation of a curvature by the residuals, were they independent.
 };
 
-/// A polynomial of degree 4 for the height, fitted to heights and slopes of the tips within `radius` whose spokes are
-/// less than 66 degrees from that of the tip, of those that are kept. `grid` holds the tips of `cloud`.
+/// A plane across the mean spoke of a window.
+struct HeightFrame {
+  Point x, y, up;
+};
+
+/// The boundary around a tip: a polynomial of degree 4 for the height over a plane.
+struct TipPatch {
+  static constexpr int kDegree = 4, kTerms = terms_of(kDegree);
+  using Coefficients = Eigen::Matrix<double, kTerms, 1>;
+
+  bool is_known = false;
+  bool is_cut = false;  ///< As of TipFit.
+  Point origin = {0, 0, 0};
+  HeightFrame frame = {};
+  double radius = 0;  ///< Of the window: the unit of the coordinates.
+  Coefficients coefficients = Coefficients::Zero();
+  double spread = 0;  ///< As of TipFit.
+
+  /// Normal and form at the place of the graph over which p lies.
+  void add_at(const Point& p, double weight, TipFit& sum) const;
+};
+
+/// A patch around tip `tip` of `cloud`, fitted to heights and slopes of the tips of `members` within `radius` whose
+/// spokes are less than 66 degrees from that of the tip. `grid` holds the tips of `members`.
 /// `is_wide`: the result is not known where the boundary bends too much within the window.
-TipFit fit_tip(const TipCloud& cloud, std::span<const std::uint8_t> is_kept, const PointGrid& grid, std::uint32_t tip,
-               double radius, bool is_wide);
+TipPatch fit_patch(const TipCloud& cloud, std::uint32_t tip, const TipCloud& members, const PointGrid& grid,
+                   double radius, bool is_wide);
+
+/// Whether a window around one of them holds the other one.
+inline bool are_on_one_side(const Point& normal, const Point& other) {
+  constexpr double kSimilarSpokes = 0.4;  // the slopes of those farther away are too steep for a height
+  return dot(normal, other) > kSimilarSpokes;
+}
 
 }  // namespace medial_vk

@@ -1,5 +1,6 @@
 #include "vertex_curvature/surface_tips.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -13,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t kNowhere = 0xffffffffu;
 constexpr std::size_t kTipsAtATime = 256;
-constexpr std::size_t kMostVertices = 400;  // that are passed in search of tips
+constexpr std::size_t kMostNodes = 400;  // that are passed in search of tips
 // A tip and its triangle differ in direction by as much as a facet does from the smooth boundary, and by 90 degrees or
 // more where the tip is beyond the edge of a thin part.
 constexpr double kSameSide = 0.3;
@@ -33,7 +34,7 @@ Eigen::Matrix3d shape_of(const TipCurvature& tip) {
 
 SurfaceTips::SurfaceTips(const IndexedMesh& mesh, std::span<const Ball> balls, const BoundaryCurvature& curvature,
                          unsigned threads, LoopWatch& watch)
-    : mesh_(mesh.view()) {
+    : mesh_(mesh.view()), graph_(mesh_, curvature.spacing) {
   std::vector<std::uint32_t> triangles(2 * balls.size(), kNowhere);
   std::vector<Point> positions(2 * balls.size());
   parallel_blocks(balls.size(), kTipsAtATime, threads, [&](std::size_t begin, std::size_t end) {
@@ -57,12 +58,15 @@ SurfaceTips::SurfaceTips(const IndexedMesh& mesh, std::span<const Ball> balls, c
   for (std::size_t at = 0; at < triangles.size(); ++at) {
     if (triangles[at] == kNowhere) continue;
     const TipCurvature& tip = curvature.balls[at / 2].tips[at % 2];
-    pairs.emplace_back(triangles[at], static_cast<std::uint32_t>(tips_.size()));
+    for (const std::uint32_t corner : mesh_.triangles[triangles[at]]) {
+      pairs.emplace_back(graph_.node_of(corner), static_cast<std::uint32_t>(tips_.size()));
+    }
     tips_.push_back({positions[at], balls[at / 2], to_eigen(tip.normal), shape_of(tip),
                      std::isnan(tip.error) ? 0 : tip.error, static_cast<std::uint32_t>(at / 2),
                      static_cast<std::uint8_t>(at % 2)});
   }
-  by_triangle_ = IndexLists(mesh_.triangles.size(), pairs);
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  by_node_ = IndexLists(graph_.size(), pairs);
   pairs.clear();
   for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
     for (const std::uint32_t vertex : mesh_.triangles[t]) pairs.emplace_back(vertex, static_cast<std::uint32_t>(t));
@@ -91,24 +95,20 @@ void SurfaceTips::find_normals() {
 }
 
 SurfaceWalk::SurfaceWalk(const SurfaceTips& tips)
-    : surface_(tips), settled_(tips.mesh().vertices.size()), seen_(tips.tips().size()) {}
+    : surface_(tips), settled_(tips.graph().size()), seen_(tips.tips().size()) {}
 
 void SurfaceWalk::visit(const Front& at) {
-  const MeshView& mesh = surface_.mesh();
-  const Point& here = mesh.vertices[at.vertex];
-  for (const std::uint32_t triangle : surface_.triangles_at(at.vertex)) {
-    for (const std::uint32_t vertex : mesh.triangles[triangle]) {
-      if (settled_[vertex] == walk_) continue;
-      const double path = at.path + length(mesh.vertices[vertex] - here);
-      if (path > most_) continue;
-      front_.push_back({path, vertex});
-      std::ranges::push_heap(front_, std::greater<>());
-    }
-    for (const std::uint32_t tip : surface_.of_triangle(triangle)) {
-      if (has_seen(tip) || at.path + length(surface_.tips()[tip].position - here) > most_) continue;
-      seen_[tip] = walk_;
-      tips_.push_back(tip);
-    }
+  const Point& here = surface_.place(at.node);
+  for (const SurfaceGraph::Link& link : surface_.graph().links(at.node)) {
+    const double path = at.path + link.length;
+    if (settled_[link.node] == walk_ || path > most_) continue;
+    front_.push_back({path, link.node});
+    std::ranges::push_heap(front_, std::greater<>());
+  }
+  for (const std::uint32_t tip : surface_.of_node(at.node)) {
+    if (has_seen(tip) || at.path + length(surface_.tips()[tip].position - here) > most_) continue;
+    seen_[tip] = walk_;
+    tips_.push_back(tip);
   }
 }
 
@@ -116,8 +116,9 @@ void SurfaceWalk::begin(std::uint32_t vertex, double most) {
   ++walk_;
   most_ = most;
   tips_.clear();
-  vertices_.clear();
-  front_.assign(1, {0, vertex});
+  nodes_.clear();
+  const SurfaceGraph& graph = surface_.graph();
+  front_.assign(1, {graph.path_to_node(vertex), graph.node_of(vertex)});
 }
 
 bool SurfaceWalk::step(double limit) {
@@ -125,9 +126,9 @@ bool SurfaceWalk::step(double limit) {
     std::ranges::pop_heap(front_, std::greater<>());
     const Front at = front_.back();
     front_.pop_back();
-    if (settled_[at.vertex] == walk_) continue;
-    settled_[at.vertex] = walk_;
-    vertices_.push_back(at.vertex);
+    if (settled_[at.node] == walk_) continue;
+    settled_[at.node] = walk_;
+    nodes_.push_back(at.node);
     visit(at);
     return true;
   }
@@ -140,12 +141,12 @@ void SurfaceWalk::go_to(double path) {
 }
 
 void SurfaceWalk::find_tips(std::size_t count) {
-  while (tips_.size() < count && vertices_.size() < kMostVertices && step(most_)) {
+  while (tips_.size() < count && nodes_.size() < kMostNodes && step(most_)) {
   }
 }
 
-void SurfaceWalk::find_vertices(std::size_t count) {
-  while (vertices_.size() < count && step(most_)) {
+void SurfaceWalk::find_nodes(std::size_t count) {
+  while (nodes_.size() < count && step(most_)) {
   }
 }
 

@@ -9,6 +9,8 @@
 #include "base/loop_watch.h"
 #include "medial_vk/curvature.h"
 #include "medial_vk/indexed_mesh.h"
+#include "vertex_curvature/index_lists.h"
+#include "vertex_curvature/surface_graph.h"
 
 namespace medial_vk {
 
@@ -29,27 +31,6 @@ struct SurfaceTip {
 /// The shape operator of a tip, in space.
 Eigen::Matrix3d shape_of(const TipCurvature& tip);
 
-/// Lists of indices by another index.
-class IndexLists {
- public:
-  IndexLists() = default;
-  /// One entry for each pair (of, index), in the order of the pairs.
-  template <class Pairs>
-  IndexLists(std::size_t count, const Pairs& pairs) : starts_(count + 1), indices_(pairs.size()) {
-    for (const auto& pair : pairs) ++starts_[pair.first + 1];
-    for (std::size_t i = 0; i < count; ++i) starts_[i + 1] += starts_[i];
-    std::vector<std::size_t> next(starts_.begin(), starts_.end() - 1);
-    for (const auto& pair : pairs) indices_[next[pair.first]++] = pair.second;
-  }
-  std::span<const std::uint32_t> operator[](std::size_t i) const {
-    return {indices_.data() + starts_[i], starts_[i + 1] - starts_[i]};
-  }
-
- private:
-  std::vector<std::size_t> starts_;
-  std::vector<std::uint32_t> indices_;
-};
-
 class SurfaceTips {
  public:
   /// Tips that are not known, and those without a part of the mesh beside them that faces the same way, are left out.
@@ -59,7 +40,11 @@ class SurfaceTips {
 
   const MeshView& mesh() const { return mesh_; }
   const std::vector<SurfaceTip>& tips() const { return tips_; }
-  std::span<const std::uint32_t> of_triangle(std::size_t triangle) const { return by_triangle_[triangle]; }
+  /// Paths whose nodes are as far apart as balls, or farther.
+  const SurfaceGraph& graph() const { return graph_; }
+  const Point& place(std::uint32_t node) const { return mesh_.vertices[graph_.vertex(node)]; }
+  /// Tips on the triangles at the vertices that a node stands for.
+  std::span<const std::uint32_t> of_node(std::uint32_t node) const { return by_node_[node]; }
   std::span<const std::uint32_t> triangles_at(std::size_t vertex) const { return by_vertex_[vertex]; }
   /// The mean of the normals of the triangles at a vertex, weighted by their angles; 0 where they cancel.
   const Point& normal(std::size_t vertex) const { return normals_[vertex]; }
@@ -69,11 +54,12 @@ class SurfaceTips {
 
   MeshView mesh_;
   std::vector<SurfaceTip> tips_;
-  IndexLists by_triangle_, by_vertex_;
+  IndexLists by_node_, by_vertex_;
+  SurfaceGraph graph_;
   std::vector<Point> normals_;
 };
 
-/// Walks from a vertex along the edges, and collects what it passes. Its memory is kept between walks.
+/// Walks from a vertex along the links of the graph, and collects what it passes. Its memory is kept between walks.
 class SurfaceWalk {
  public:
   explicit SurfaceWalk(const SurfaceTips& tips);
@@ -84,29 +70,29 @@ class SurfaceWalk {
   void go_to(double path);
   /// Goes on until so many tips are found.
   void find_tips(std::size_t count);
-  /// Goes on until so many vertices are passed.
-  void find_vertices(std::size_t count);
+  /// Goes on until so many nodes are passed.
+  void find_nodes(std::size_t count);
 
   bool has_seen(std::uint32_t tip) const { return seen_[tip] == walk_; }
   const std::vector<std::uint32_t>& tips() const { return tips_; }
-  const std::vector<std::uint32_t>& vertices() const { return vertices_; }  ///< The nearest first.
+  const std::vector<std::uint32_t>& nodes() const { return nodes_; }  ///< The nearest first.
 
  private:
   struct Front {
     double path;
-    std::uint32_t vertex;
-    bool operator>(const Front& other) const { return path != other.path ? path > other.path : vertex > other.vertex; }
+    std::uint32_t node;
+    bool operator>(const Front& other) const { return path != other.path ? path > other.path : node > other.node; }
   };
 
-  /// Passes the next vertex, if its path is at most `limit`; whether it did.
+  /// Passes the next node, if its path is at most `limit`; whether it did.
   bool step(double limit);
   void visit(const Front& at);
 
   const SurfaceTips& surface_;
   std::uint32_t walk_ = 0;
   double most_ = 0;
-  std::vector<std::uint32_t> settled_, seen_;  // by vertex, by tip: the number of the walk
-  std::vector<std::uint32_t> tips_, vertices_;
+  std::vector<std::uint32_t> settled_, seen_;  // by node, by tip: the number of the walk
+  std::vector<std::uint32_t> tips_, nodes_;
   std::vector<Front> front_;
 };
 

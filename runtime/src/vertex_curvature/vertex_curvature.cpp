@@ -11,6 +11,7 @@
 #include "vertex_curvature/surface_tips.h"
 #include "vertex_curvature/tip_means.h"
 #include "vertex_curvature/touching_balls.h"
+#include "vertex_curvature/unknown_reasons.h"
 #include "vertex_curvature/voronoi_means.h"
 
 namespace medial_vk {
@@ -18,7 +19,7 @@ namespace {
 
 constexpr double kMost = 1e18;    // as of measure_curvature()
 constexpr double kMostPath = 12;  // spacings, along edges
-constexpr std::size_t kCapVertices = 40;
+constexpr std::size_t kCapNodes = 40;
 constexpr std::size_t kVerticesAtATime = 64;
 constexpr double kUncertainError = 0.25;  // as of measure_curvature()
 
@@ -72,26 +73,36 @@ void set_shape(const PointShape& shape, VertexCurvature& out) {
 /// The vertices of a mesh, one after the other; one object for each thread.
 class AlongSurface {
  public:
-  AlongSurface(const SurfaceTips& surface, const TipMeans& means, const TouchingBalls& touching, double spacing)
-      : surface_(surface), means_(means), touching_(touching), spacing_(spacing), walk_(surface) {}
+  AlongSurface(const SurfaceTips& surface, const TipMeans& means, const TouchingBalls& touching,
+               const UnknownReasons& reasons, double spacing)
+      : surface_(surface), means_(means), touching_(touching), reasons_(reasons), spacing_(spacing), walk_(surface) {}
 
   VertexCurvature at(std::uint32_t vertex) {
+    VertexCurvature out = measure(vertex);
+    if (out.state == CurvatureState::kFew) out.state = reasons_.at(surface_.mesh().vertices[vertex]);
+    return out;
+  }
+
+ private:
+  VertexCurvature measure(std::uint32_t vertex) {
     const Point& p = surface_.mesh().vertices[vertex];
     walk_.begin(vertex, kMostPath * spacing_);
     const TipMean mean = means_.at(p, surface_.normal(vertex), walk_);
     const Eigen::Vector3d normal = to_eigen(surface_.normal(vertex));
     const bool agrees = mean.is_found && angle_between(mean.at.normal, normal) < kMostTurn;
-    VertexCurvature of_mean = mean.is_found ? unknown(mean) : VertexCurvature{};
+    VertexCurvature of_mean = mean.is_found ? unknown(CurvatureState::kEdge, mean) : VertexCurvature{};
     if (agrees) of_mean = of_tips(mean);
     if (is_known(of_mean.state) && !mean.is_outside) return of_mean;
-    walk_.find_vertices(kCapVertices);
-    around_.clear();
-    for (const std::uint32_t near : walk_.vertices()) around_.push_back(surface_.mesh().vertices[near]);
+    walk_.find_nodes(kCapNodes);
+    around_.assign(1, p);
+    for (const std::uint32_t near : walk_.nodes()) {
+      if (surface_.graph().vertex(near) != vertex) around_.push_back(surface_.place(near));
+    }
     const Touch touch = touching_.at(p, around_);
     if (touch.state == CurvatureState::kFew) {
       // Beyond the last tips, the normal of the mesh tells whether the boundary goes on as they say.
       const bool turns_off = agrees && mean.is_outside && angle_between(mean.at.normal, normal) >= kClearTurn;
-      return turns_off ? unknown(mean) : of_mean;
+      return turns_off ? unknown(CurvatureState::kEdge, mean) : of_mean;
     }
     if (!is_known(of_mean.state) || touch.depth > 0.5 * spacing_) return of_touch(touch);
     // At the border of a cap: the one whose normal is that of the mesh, or the better one.
@@ -100,7 +111,6 @@ class AlongSurface {
     return touch.at.error < mean.at.error ? of_touch(touch) : of_mean;
   }
 
- private:
   VertexCurvature of_tips(const TipMean& mean) const {
     const SurfaceTip& tip = surface_.tips()[mean.heaviest];
     VertexCurvature out;
@@ -110,12 +120,13 @@ class AlongSurface {
     set_shape(mean.at, known);
     known.state = mean.is_cut ? CurvatureState::kCut : CurvatureState::kKnown;
     const double greater = std::max(std::fabs(known.kappa[0]), std::fabs(known.kappa[1]));
-    return known.error <= kUncertainError * std::max(greater, 0.1 / tip.sphere.radius) ? known : unknown(mean);
+    const bool is_certain = known.error <= kUncertainError * std::max(greater, 0.1 / tip.sphere.radius);
+    return is_certain ? known : unknown(CurvatureState::kUncertain, mean);
   }
 
-  VertexCurvature unknown(const TipMean& mean) const {
+  VertexCurvature unknown(CurvatureState state, const TipMean& mean) const {
     VertexCurvature out;
-    out.state = CurvatureState::kUncertain;
+    out.state = state;
     out.normal = to_point(mean.at.normal);
     out.ball = surface_.tips()[mean.heaviest].ball;
     out.tip = surface_.tips()[mean.heaviest].side;
@@ -138,6 +149,7 @@ class AlongSurface {
   const SurfaceTips& surface_;
   const TipMeans& means_;
   const TouchingBalls& touching_;
+  const UnknownReasons& reasons_;
   double spacing_;
   SurfaceWalk walk_;
   std::vector<Point> around_;
@@ -158,11 +170,12 @@ std::vector<VertexCurvature> assign(const IndexedMesh& mesh, std::span<const Bal
   }
   const TipMeans means(surface, curvature.spacing);
   const TouchingBalls touching(balls, curvature, options.object_angle);
+  const UnknownReasons reasons(balls, curvature);
   const std::size_t count = surface.mesh().vertices.size();
   std::vector<VertexCurvature> out(count);
   parallel_blocks(count, (count + 255) / 256 + kVerticesAtATime, options.threads,
                   [&](std::size_t begin, std::size_t end) {
-                    AlongSurface search(surface, means, touching, curvature.spacing);
+                    AlongSurface search(surface, means, touching, reasons, curvature.spacing);
                     for (std::size_t v = begin; v < end; ++v) {
                       watch.check();
                       out[v] = search.at(static_cast<std::uint32_t>(v));

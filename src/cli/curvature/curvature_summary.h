@@ -24,7 +24,7 @@ struct CurvatureSummary {
   std::string method;
   std::uint64_t balls = 0;
   double spacing = 0;
-  std::array<std::uint64_t, kCurvatureStates> tips = {};  ///< By state.
+  std::array<std::uint64_t, kTipStates> tips = {};  ///< By state.
   std::array<ValueRange, 2> kappa = {};
   ValueRange error = {};
 };

@@ -112,9 +112,16 @@ std::string describe_curvature(const CurvatureRecord& record) {
   const auto range = [](const std::optional<CurvatureRecord::Range>& of) {
     return of ? fmt::format("{:.3g} to {:.3g}", of->least, of->greatest) : std::string("unknown");
   };
-  return fmt::format("kappa 1 {}, kappa 2 {}; one of both is known at {:.3g} %, none at {:.3g} % of the area",
+  std::string reasons;
+  for (std::size_t i = static_cast<std::size_t>(CurvatureState::kSeam); i < kCurvatureStates; ++i) {
+    if (!(record.state_shares[i] >= 0.0005)) continue;
+    const char* const before = reasons.empty() ? " (" : ", ";
+    reasons +=
+        fmt::format("{}{} {:.3g} %", before, state_name(static_cast<CurvatureState>(i)), 100 * record.state_shares[i]);
+  }
+  return fmt::format("kappa 1 {}, kappa 2 {}; one of both is known at {:.3g} %, none at {:.3g} % of the area{}",
                      range(record.kappa_1), range(record.kappa_2), 100 * (record.unknown_share - record.none_share),
-                     100 * record.none_share);
+                     100 * record.none_share, reasons.empty() ? "" : reasons + ")");
 }
 
 /// Both sides of the comparison, which shows whether the topology was kept.

@@ -76,7 +76,7 @@ Output:
 What is measured on the boundary, for summary, report, page and these files:
       --thickness       how thick the solid is, by area, as intervals
       --curvature       principal curvatures from the medial points; takes about
-                        a millisecond of a core for each
+                        a third of a millisecond of a core for each
       --boundary FILE   the mesh as .ply, .glb, .vtp (ParaView), .npz or .json
                         with what is measured at its vertices: both, unless
                         --thickness or --curvature names one; "-": PLY on

@@ -5,7 +5,8 @@
 
 namespace medial_vk::cli {
 
-/// Curvature takes about a millisecond of a core per medial point, so that only what an output needs is measured.
+/// Curvature takes about a third of a millisecond of a core per medial point, so that only what an output needs is
+/// measured.
 struct MeasuresOfBoundary {
   bool thickness = false;  ///< At points that stand for equal parts of the area: for summary and report.
   bool thickness_at_vertices = false;

@@ -272,10 +272,14 @@ Json curvature_json(const std::optional<CurvatureRecord>& record) {
     if (!of) return nullptr;
     return {{"least", of->least}, {"greatest", of->greatest}};
   };
+  Json states = Json::object();
+  for (std::size_t i = 0; i < kCurvatureStates; ++i)
+    states[std::string(state_name(static_cast<CurvatureState>(i)))] = record->state_shares[i];
   return {{"kappa_1", range(record->kappa_1)},
           {"kappa_2", range(record->kappa_2)},
           {"unknown_share", record->unknown_share},
           {"none_share", record->none_share},
+          {"state_shares", states},
           {"median_error", record->median_error ? Json(*record->median_error) : Json(nullptr)}};
 }
 

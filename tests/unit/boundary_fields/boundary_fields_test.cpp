@@ -127,8 +127,12 @@ TEST(CurvatureSummary, CountsAreaAndNotVertices) {
   for (std::size_t i = 0; i < 3; ++i) {
     curvature[i].kappa = {static_cast<double>(i), -1.0 - static_cast<double>(i)};
     curvature[i].error = static_cast<double>(i);
+    curvature[i].state = CurvatureState::kKnown;
   }
   curvature[3].kappa = {1, curvature[3].kappa[1]};  // a third of a quarter of the area; the other one is unknown
+  curvature[3].state = CurvatureState::kCurve;
+  curvature[4].state = CurvatureState::kUncertain;
+  curvature[5].state = CurvatureState::kEdge;
   BoundaryFields fields;
   add_curvature(fields, curvature, {});
   const CurvatureRecord record = summarise_curvature(mesh, fields);
@@ -137,6 +141,12 @@ TEST(CurvatureSummary, CountsAreaAndNotVertices) {
   EXPECT_EQ(record.kappa_1->greatest, 2);
   EXPECT_EQ(record.kappa_2->least, -3);
   EXPECT_EQ(record.median_error, 1);
+  const auto share_of = [&](CurvatureState state) { return record.state_shares[static_cast<std::size_t>(state)]; };
+  EXPECT_DOUBLE_EQ(share_of(CurvatureState::kKnown), 0.75);
+  EXPECT_DOUBLE_EQ(share_of(CurvatureState::kCurve), 0.25 / 3);
+  EXPECT_DOUBLE_EQ(share_of(CurvatureState::kUncertain), 0.25 / 3);
+  EXPECT_DOUBLE_EQ(share_of(CurvatureState::kEdge), 0.25 / 3);
+  EXPECT_EQ(share_of(CurvatureState::kFew), 0);
 }
 
 TEST(RefineMesh, KeepsTheSurfaceClosedAndItsVerticesFirst) {

@@ -305,14 +305,18 @@ TEST(ReportJson, HoldsWhatWasMeasuredOnTheBoundary) {
   record.boundary.thickness->least = Bounds{1, 1.01};
   record.boundary.thickness->least_at = {3, 4, 5};
   record.boundary.curvature = CurvatureRecord{{{-1.0, 2.0}}, {}, 0.125, 0.0625, 0.5};
+  record.boundary.curvature->state_shares[static_cast<std::size_t>(CurvatureState::kUncertain)] = 0.0625;
   boundary = json::parse(report_json(record))["boundary"];
   EXPECT_EQ(boundary["thickness"]["least_in_a_wall"]["at"], (std::vector<double>{3, 4, 5}));
   EXPECT_EQ(boundary["curvature"]["kappa_1"]["greatest"], 2.0);
   EXPECT_TRUE(boundary["curvature"]["kappa_2"].is_null());
   EXPECT_EQ(boundary["curvature"]["unknown_share"], 0.125);
   EXPECT_EQ(boundary["curvature"]["none_share"], 0.0625);
+  EXPECT_EQ(boundary["curvature"]["state_shares"]["uncertain"], 0.0625);
+  EXPECT_EQ(boundary["curvature"]["state_shares"]["edge"], 0);
   const std::string text = cli::summary(record, {});
   EXPECT_THAT(text, HasSubstr("median 2 to 2.01 by area; least met in a wall 1 to 1.01 at 3, 4, 5"));
+  EXPECT_THAT(text, HasSubstr("none at 6.25 % of the area (uncertain 6.25 %)"));
   EXPECT_THAT(text, HasSubstr("walls 75 %, creases 25 %, corners 0 %, facets 0 % of the area"));
   EXPECT_THAT(text, HasSubstr("wider than 10 % at 25 %"));
   EXPECT_THAT(

@@ -216,6 +216,33 @@ TEST(VertexCurvature, TurnsWithTheSolid) {
   EXPECT_LE(different, before.size() / 100);
 }
 
+/// At the corners of a box that is 1 thick nothing is known, and the nearest of the balls between its faces tell why.
+TEST(VertexCurvature, TheNearestBallTellsWhyNothingIsKnown) {
+  Mesh box = test::make_box({4, 4, 1});
+  for (Point& p : box.vertices) p = p - Point{2, 2, 0.5};
+  const IndexedMesh mesh = indexed(box);
+  const auto states_of = [&](const std::vector<Ball>& balls) {
+    CurvatureOptions options;
+    options.spacing = kBallSpacing;
+    const auto found = curvature_at_vertices(mesh, balls, measure_curvature(balls, options).value()).value();
+    std::vector<CurvatureState> states;
+    for (const VertexCurvature& at : found) {
+      EXPECT_TRUE(std::isnan(at.kappa[0]) && std::isnan(at.kappa[1]));
+      states.push_back(at.state);
+    }
+    return states;
+  };
+  std::vector<Ball> even, noisy;
+  test::scatter(1.5, 1.5, kBallSpacing, [&](double x, double y) {
+    even.push_back({{x, y, 0}, 0.5});
+    noisy.push_back({{x, y, 0}, 0.5 + 0.02 * std::sin(1000 * x)});
+  });
+  EXPECT_THAT(states_of(even), testing::Each(CurvatureState::kEdge));
+  EXPECT_THAT(states_of(noisy), testing::Each(CurvatureState::kUncertain));
+  const std::vector<Ball> few = {{{0, 0, 0}, 0.5}, {{0.5, 0, 0}, 0.5}, {{0, 0.5, 0}, 0.5}};
+  EXPECT_THAT(states_of(few), testing::Each(testing::AnyOf(CurvatureState::kFew, CurvatureState::kExposed)));
+}
+
 TEST(VertexCurvature, NothingIsKnownWithoutBalls) {
   const IndexedMesh mesh = indexed(test::make_box({1, 1, 1}));
   for (const auto assignment : {CurvatureAssignment::kAlongSurface, CurvatureAssignment::kVoronoi}) {
