@@ -83,8 +83,7 @@ What is measured on the boundary, for summary, report, page and these files:
                         standard output
       --boundary-edge E  with edges cut until none is longer than E times the
                         longest side, 0.001 to 1 (default: as they are), so that
-                        large triangles have values inside; curvature takes a
-                        time that grows with the square of their number
+                        large triangles have values inside
       --thickness-histogram FILE  .svg or .csv: thickness by area; "-": .csv on
                         standard output
       --thickness-points FILE  .npz, .json or .csv: the points by area, each with

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "medial_vk/version.h"
+#include "output/extraction_report/boundary_json.h"
 
 namespace medial_vk {
 namespace {
@@ -241,92 +242,6 @@ Json fatness_json(const RunRecord& record) {
               {"largest_voxel", radius * std::numbers::inv_sqrt3 * (1 - 0x1p-50)}};
   }
   return {{"proved", proved}, {"angles", angles}};
-}
-
-Json thickness_json(const std::optional<ThicknessRecord>& record) {
-  if (!record) return nullptr;
-  Json least = nullptr;
-  if (record->least) {
-    least = {{"lower", record->least->lower}, {"upper", record->least->upper}, {"at", record->least_at}};
-  }
-  const double points = static_cast<double>(std::max<std::size_t>(record->intervals.size(), 1));
-  Json kinds = Json::object();
-  for (const ThicknessKind kind : kThicknessKinds) kinds[std::string(kind_name(kind))] = record->share(kind);
-  return {{"delta", record->delta},
-          {"width", record->width},
-          {"points", record->intervals.size()},
-          {"median", {{"lower", record->median.lower}, {"upper", record->median.upper}}},
-          {"least_in_a_wall", least},
-          {"kinds", kinds},
-          {"wall_angle", record->wall_angle},
-          {"crease_angle", record->crease_angle},
-          {"wall_deltas", kWallDeltas},
-          {"greatest", record->greatest},
-          {"wide_interval", kWideInterval},
-          {"wide_share", static_cast<double>(record->wide) / points}};
-}
-
-Json curvature_json(const std::optional<CurvatureRecord>& record) {
-  if (!record) return nullptr;
-  const auto range = [](const std::optional<CurvatureRecord::Range>& of) -> Json {
-    if (!of) return nullptr;
-    return {{"least", of->least}, {"greatest", of->greatest}};
-  };
-  Json states = Json::object();
-  for (std::size_t i = 0; i < kCurvatureStates; ++i)
-    states[std::string(state_name(static_cast<CurvatureState>(i)))] = record->state_shares[i];
-  return {{"kappa_1", range(record->kappa_1)},
-          {"kappa_2", range(record->kappa_2)},
-          {"unknown_share", record->unknown_share},
-          {"none_share", record->none_share},
-          {"state_shares", states},
-          {"median_error", record->median_error ? Json(*record->median_error) : Json(nullptr)}};
-}
-
-const char* name_of(WallRecord::Verdict verdict) {
-  switch (verdict) {
-    case WallRecord::Verdict::kThickEnough:
-      return "thick enough";
-    case WallRecord::Verdict::kTooThin:
-      return "too thin";
-    case WallRecord::Verdict::kMeasured:
-      return "measured";
-    case WallRecord::Verdict::kUndecided:
-      break;
-  }
-  return "undecided";
-}
-
-Json walls_json(const WallRecord& record) {
-  Json ball = nullptr;
-  if (const std::optional<WallBall>& thinnest = record.found.thinnest) {
-    ball = {{"centre", thinnest->ball.centre},
-            {"radius", thinnest->ball.radius},
-            {"contacts", {thinnest->a, thinnest->b}},
-            {"object_angle", thinnest->object_angle}};
-  }
-  Json places = Json::array();
-  for (const ThinPlace& place : record.places) {
-    places.push_back(
-        {{"lower", place.least.lower}, {"upper", place.least.upper}, {"at", place.at}, {"area", place.area}});
-  }
-  return {{"side", record.side == ThicknessSide::kWalls ? "walls" : "gaps"},
-          {"demanded", record.demanded > 0 ? Json(record.demanded) : Json(nullptr)},
-          {"object_angle", record.object_angle},
-          {"verdict", name_of(record.verdict)},
-          {"proved", record.found.diameter.lower},
-          {"thinnest", ball},
-          {"places", places},
-          {"cells", record.found.cells}};
-}
-
-Json boundary_json(const BoundaryRecord& record) {
-  if (!record.thickness && !record.curvature && record.walls.empty()) return nullptr;
-  Json walls = Json::array();
-  for (const WallRecord& of_side : record.walls) walls.push_back(walls_json(of_side));
-  return {{"thickness", thickness_json(record.thickness)},
-          {"curvature", curvature_json(record.curvature)},
-          {"walls", walls}};
 }
 
 Json check_json(const std::optional<CheckReport>& check) {
