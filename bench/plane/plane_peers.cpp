@@ -1,4 +1,4 @@
-#include "plane/plane_peers.h"
+#include "plane_peers.h"
 
 #include <cmath>
 #include <utility>

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "medial_vk/plane_axis.h"
-#include "plane/plane_peers.h"
+#include "plane_peers.h"
 
 namespace medial_vk::bench {
 namespace {
