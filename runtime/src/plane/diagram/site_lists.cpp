@@ -9,7 +9,7 @@ namespace {
 
 // Of distances in this file, from coordinates within [-1/2, 1/2] and some ten operations.
 constexpr double kRounding = 0x1p-49;
-constexpr std::size_t kManySites = 64;  // in a cell that is too large for comparisons to remove many
+constexpr std::size_t kManySites = 12;  // more, and comparisons at corners remove too few
 
 /// The extent of a cell in a direction.
 double extent(const Cell& cell, Vec2 way) {
