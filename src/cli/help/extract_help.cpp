@@ -86,7 +86,7 @@ What is measured on the boundary, for summary, report, page and these files:
                         large triangles have values inside
       --thickness-histogram FILE  .svg or .csv: thickness by area; "-": .csv on
                         standard output
-      --thickness-points FILE  .npz, .json or .csv: the points by area, each with
+      --thickness-points FILE  .npz, .json or .csv: the points by area, with
                         interval, kind (wall, crease, corner, facets), ball and
                         contacts; "-": .csv on standard output
       --thickness-delta D  balls count at a point if they come within D times

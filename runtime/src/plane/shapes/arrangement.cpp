@@ -149,7 +149,8 @@ class Arranger {
     for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
     const std::vector<Vec2>& points = result_.points;
     std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
-      return precedes(points[a], points[b]) || (points[a] == points[b] && a < b);
+      const Vec2 p = points[a], q = points[b];
+      return p == q ? a < b : precedes(p, q);
     });
     target_.resize(points.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
