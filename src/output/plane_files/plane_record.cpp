@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace medial_vk {
 
@@ -17,13 +18,14 @@ std::vector<std::vector<std::uint32_t>> rings_of(const PreparedShape& shape) {
   std::vector<std::vector<std::uint32_t>> rings;
   for (std::uint32_t start = 0; start < shape.points.size(); ++start) {
     while (next[start] < first[start + 1]) {
-      std::vector<std::uint32_t>& ring = rings.emplace_back();
+      std::vector<std::uint32_t> ring;
       // As many segments end in a point as begin there, so the walk returns to its start.
       for (std::uint32_t at = start; next[at] < first[at + 1];) {
         ring.push_back(at);
         at = ends[next[at]++];
         if (at == start) break;
       }
+      rings.push_back(std::move(ring));
     }
   }
   return rings;

@@ -14,6 +14,11 @@ constexpr double kGrid = 0x1p-35;
 constexpr double merge_distance(double radius) { return 64 * tie(radius); }
 static_assert(merge_distance(1.5) < kGrid);
 
+/// Within this distance of it the centre of a circle through three neighbouring sides of a regular polygon is found, up
+/// to some thousand sides: two neighbours differ by tie() where the centre has moved by tie() over the square of their
+/// turn.
+constexpr double kNearCluster = 0x1p-30;
+
 struct GridKey {
   std::int64_t x, y;
   std::uint32_t node;
@@ -87,7 +92,7 @@ void DiagramNodes::add_clusters(const CellTree& tree) {
     std::ranges::sort(contacts);
     add({{cell.centre, radius}, 0, NodeKind::kMeeting}, contacts, cell.reach);
     cluster_cells_.push_back(cluster);
-    clustered_ = std::max(clustered_, 2 * cell.reach);
+    clustered_ = std::max(clustered_, 2 * (cell.reach + kNearCluster));
   }
 }
 
@@ -134,9 +139,25 @@ void DiagramNodes::join_coincident() {
   }
 }
 
+/// Nodes near a cluster belong to it: where contacts are neighbours, as sides of a regular polygon, rounding moves the
+/// circles through them farther than others.
+void DiagramNodes::join_near_clusters() {
+  std::vector<std::pair<double, std::uint32_t>> clusters;
+  for (std::uint32_t i = first_cluster_; i < nodes_.size(); ++i) clusters.emplace_back(nodes_[i].circle.centre.x, i);
+  std::ranges::sort(clusters);
+  for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
+    const Vec2 centre = nodes_[i].circle.centre;
+    auto at = std::ranges::lower_bound(clusters, std::pair(centre.x - kNearCluster, std::uint32_t{0}));
+    for (; at != clusters.end() && at->first <= centre.x + kNearCluster; ++at) {
+      if (distance(nodes_[at->second].circle.centre, centre) <= kNearCluster) join(i, at->second);
+    }
+  }
+}
+
 /// Cells that touch, and vertices within or beside them.
 void DiagramNodes::join_clusters(const CellTree& tree) {
   if (cluster_cells_.empty()) return;
+  join_near_clusters();
   const auto join_at = [&](std::uint32_t node, Vec2 x) {
     const auto at = std::ranges::lower_bound(cluster_cells_, tree.node_at(x));
     if (at == cluster_cells_.end() || *at != tree.node_at(x)) return;

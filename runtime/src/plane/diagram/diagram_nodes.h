@@ -28,6 +28,7 @@ class DiagramNodes {
   void add(const DiagramNode& node, std::span<const Contact> contacts, double size);
   void merge(const CellTree& tree);
   void join_coincident();
+  void join_near_clusters();
   void join_clusters(const CellTree& tree);
   std::uint32_t root_of(std::uint32_t i);
   void join(std::uint32_t a, std::uint32_t b);
