@@ -81,7 +81,7 @@ struct PlaneAxis {
   /// but for a share of the threshold, 2^-40; in input units. Nodes may be farther from theirs, along the axis, where
   /// contacts differ by no more than rounding: at joints of segments that are nearly in line.
   double epsilon = 0;
-  std::uint64_t cells = 0;  ///< Of the partition of the plane.
+  std::uint64_t cells = 0;  ///< Of the partition of the plane, divided ones included.
 
   /// Nodes of a degree of at least 3.
   std::uint64_t junctions() const;

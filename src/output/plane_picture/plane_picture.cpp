@@ -185,11 +185,18 @@ class PlanePainter {
     const PlaneCounts counts = counts_of(record_);
     picture::Scene scene;
     scene.palette = {kInk};
-    scene.legend.title =
-        fmt::format("{} branch{}, {} junction{}, {} end{}", counts.branches, counts.branches == 1 ? "" : "es",
-                    counts.junctions, counts.junctions == 1 ? "" : "s", counts.ends, counts.ends == 1 ? "" : "s");
-    scene.legend.swatches.emplace_back(scene.palette.size(), fmt::format("{} segments, length of the axis {:.4g}",
-                                                                         record_.shape.segments.size(), counts.length));
+    if (record_.published) {
+      scene.legend.title = fmt::format("{} points in {} discs, as published", counts.points, record_.published->discs);
+      scene.legend.swatches.emplace_back(scene.palette.size(),
+                                         fmt::format("{} segments", record_.shape.segments.size()));
+    } else {
+      scene.legend.title =
+          fmt::format("{} branch{}, {} junction{}, {} end{}", counts.branches, counts.branches == 1 ? "" : "es",
+                      counts.junctions, counts.junctions == 1 ? "" : "s", counts.ends, counts.ends == 1 ? "" : "s");
+      scene.legend.swatches.emplace_back(
+          scene.palette.size(),
+          fmt::format("{} segments, length of the axis {:.4g}", record_.shape.segments.size(), counts.length));
+    }
     scene.legend.note = fmt::format("radius {:.4g} to {:.4g}, object angle at least {:.3g}", counts.least_radius,
                                     counts.greatest_radius, record_.options.object_angle);
     picture::draw_legend(scene, out, picture::LegendCorner::kLowerLeft);

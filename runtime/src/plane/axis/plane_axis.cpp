@@ -30,6 +30,13 @@ Status check_options(double object_angle, double radius, double margin) {
 
 PlanePoint pair_of(Vec2 v) { return {v.x, v.y}; }
 
+/// The kinds of nodes have the same order.
+constexpr bool is_same(NodeKind kind, AxisNodeKind of_axis) { return static_cast<AxisNodeKind>(kind) == of_axis; }
+static_assert(is_same(NodeKind::kMeeting, AxisNodeKind::kMeeting) &&
+              is_same(NodeKind::kCorner, AxisNodeKind::kCorner) &&
+              is_same(NodeKind::kThreshold, AxisNodeKind::kThreshold) &&
+              is_same(NodeKind::kBorder, AxisNodeKind::kBorder));
+
 PlaneCurve curve_in_input(const Bisector& curve, const Frame& frame) {
   PlaneCurve result;
   result.kind = curve.kind() == Bisector::Kind::kOfPoints ? PlaneCurve::Kind::kOfPoints

@@ -41,15 +41,14 @@ DiagramNodes::DiagramNodes(const SiteSet& sites, const DiagramQuery& query, cons
   index_contacts();
 }
 
-void DiagramNodes::add(const DiagramNode& node, std::span<const Contact> contacts, double size) {
+void DiagramNodes::add(const DiagramNode& node, std::span<const Contact> contacts) {
   nodes_.push_back(node);
   contacts_.emplace_back(contacts.begin(), contacts.end());
-  sizes_.push_back(size);
 }
 
 void DiagramNodes::add_vertices(const DiagramParts& parts) {
   for (const DiagramVertex& vertex : parts.vertices) {
-    add({vertex.circle, 0, NodeKind::kMeeting}, parts.contacts_of(vertex), 0);
+    add({vertex.circle, 0, NodeKind::kMeeting}, parts.contacts_of(vertex));
   }
 }
 
@@ -70,7 +69,7 @@ void DiagramNodes::add_corners(const DiagramQuery& query, const CellTree& tree) 
       if (!allows(query.wanted, pair[0].side) || !can_pair(sites_, query.wanted, pair[0], pair[1])) continue;
       if ((std::numbers::pi - angle_between(from, to)) / 2 < query.object_angle) continue;
       std::ranges::sort(pair);
-      add({{sites_.point(p), 0}, 0, NodeKind::kCorner}, pair, 0);
+      add({{sites_.point(p), 0}, 0, NodeKind::kCorner}, pair);
     }
   }
 }
@@ -90,7 +89,7 @@ void DiagramNodes::add_clusters(const CellTree& tree) {
       }
     }
     std::ranges::sort(contacts);
-    add({{cell.centre, radius}, 0, NodeKind::kMeeting}, contacts, cell.reach);
+    add({{cell.centre, radius}, 0, NodeKind::kMeeting}, contacts);
     cluster_cells_.push_back(cluster);
     clustered_ = std::max(clustered_, 2 * (cell.reach + kNearCluster));
   }

@@ -25,7 +25,7 @@ class DiagramNodes {
   void add_vertices(const DiagramParts& parts);
   void add_corners(const DiagramQuery& query, const CellTree& tree);
   void add_clusters(const CellTree& tree);
-  void add(const DiagramNode& node, std::span<const Contact> contacts, double size);
+  void add(const DiagramNode& node, std::span<const Contact> contacts);
   void merge(const CellTree& tree);
   void join_coincident();
   void join_near_clusters();
@@ -39,7 +39,6 @@ class DiagramNodes {
   const SiteSet& sites_;
   Wanted wanted_;
   std::vector<DiagramNode> nodes_;
-  std::vector<double> sizes_;  // of clusters: half a side; of others 0
   std::vector<std::vector<Contact>> contacts_;
   std::vector<std::uint32_t> parent_;
   std::vector<std::uint32_t> cluster_cells_;
