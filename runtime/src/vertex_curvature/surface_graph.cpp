@@ -68,7 +68,7 @@ void SurfaceGraph::find_links(const MeshView& mesh, const IndexLists& neighbours
   struct Edge {
     std::uint32_t from, to;
     double length;
-    auto operator<=>(const Edge&) const = default;
+    auto operator<=>(const Edge&) const = default;  // NOLINT(modernize-use-nullptr): false alarm of clang-tidy 14
   };
   std::vector<Edge> edges;
   edges.reserve(6 * vertices_.size());

@@ -22,7 +22,7 @@ constexpr double kNearCluster = 0x1p-30;
 struct GridKey {
   std::int64_t x, y;
   std::uint32_t node;
-  friend constexpr auto operator<=>(const GridKey&, const GridKey&) = default;
+  auto operator<=>(const GridKey&) const = default;  // NOLINT(modernize-use-nullptr): false alarm of clang-tidy 14
 };
 
 GridKey key_of(Vec2 x, std::uint32_t node) {

@@ -21,13 +21,13 @@ struct Cut {
   double position;  // along the segment
   std::uint32_t point;
 
-  friend constexpr auto operator<=>(const Cut&, const Cut&) = default;
+  auto operator<=>(const Cut&) const = default;  // NOLINT(modernize-use-nullptr): false alarm of clang-tidy 14
 };
 
 /// What two edges, or an edge and a point, have in common.
 struct Meeting {
-  std::uint32_t first, second;  // sites
-  friend constexpr auto operator<=>(const Meeting&, const Meeting&) = default;
+  std::uint32_t first, second;                       // sites
+  auto operator<=>(const Meeting&) const = default;  // NOLINT(modernize-use-nullptr): false alarm of clang-tidy 14
 };
 
 /// The meetings of edges, and of their ends with other edges and ends.

@@ -16,7 +16,7 @@ struct CountedEdge {
   std::array<std::uint32_t, 2> ends = {};
   std::int32_t times = 1;
 
-  friend constexpr auto operator<=>(const CountedEdge&, const CountedEdge&) = default;
+  auto operator<=>(const CountedEdge&) const = default;  // NOLINT(modernize-use-nullptr): false alarm of clang-tidy 14
 };
 
 struct Arrangement {

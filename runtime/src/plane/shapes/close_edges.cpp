@@ -58,7 +58,7 @@ class BoxLevels {
         const std::size_t first = other == leaf ? i + 1 : other * kEdgesOfLeaf;
         for (std::size_t k = first; k < end_of(other); ++k) {
           if (!overlap(boxes_[i], boxes_[k], gap_) || are_apart(edges_[i], edges_[k])) continue;
-          pairs.push_back(std::minmax(edges_[i], edges_[k]));
+          pairs.emplace_back(std::minmax(edges_[i], edges_[k]));
         }
       }
     }

@@ -14,8 +14,8 @@ namespace {
 class Sweep {
  public:
   explicit Sweep(const Arrangement& arrangement) : arrangement_(arrangement), status_(Below{this}) {
-    for (std::uint32_t e = 0; e < arrangement.edges.size(); ++e) {
-      auto [begin, end] = arrangement.edges[e].ends;
+    for (const CountedEdge& edge : arrangement.edges) {
+      auto [begin, end] = edge.ends;
       const bool is_forward = precedes(point(begin), point(end));
       if (!is_forward) std::swap(begin, end);
       spans_.push_back({begin, end, is_forward});

@@ -14,7 +14,7 @@ struct Contact {
   std::uint32_t site = 0;
   Side side = Side::kLeft;  ///< Of a point always left.
 
-  friend constexpr auto operator<=>(const Contact&, const Contact&) = default;
+  auto operator<=>(const Contact&) const = default;  // NOLINT(modernize-use-nullptr): false alarm of clang-tidy 14
 };
 
 /// A curve with the parameter t, which is the distance from its apex along a straight line.
