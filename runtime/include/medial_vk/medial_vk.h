@@ -3,6 +3,7 @@
 #pragma once
 
 #include "medial_vk/analysis.h"
+#include "medial_vk/any_boundary.h"
 #include "medial_vk/ball.h"
 #include "medial_vk/ball_union.h"
 #include "medial_vk/body_group.h"
