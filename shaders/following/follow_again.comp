@@ -24,8 +24,9 @@ bool start_between(Contact a, Contact b) {
   return along > 0.0 && radius < 1e8;
 }
 
-// At the point that was found; false: it is too near, or the guess is outside, as far as the normal tells.
-bool touch_nearest(inout TrackedBall tried) {
+// At the point that was found; false: it is too near, or the guess is outside, as far as the normal tells. A proved radius
+// is less than that of its search by more than `slack`, so that the search ends where none above `least` can follow.
+bool touch_nearest(inout TrackedBall tried, float least) {
   if (touching_triangle == 0xffffffffu || !is_complete) return false;
   vec3 guess = centre;
   vec3 away = guess - touching;
@@ -34,6 +35,7 @@ bool touch_nearest(inout TrackedBall tried) {
   if (dot(to_a, to_a) > dot(to_b, to_b)) tried.b = tried.a;
   tried.a = nearest;
   start_at(tried.a, tried.b, 1e8);
+  least_wanted = least + slack;
   return length(away) > 2.0 * slack && dot(nearest.towards, inward_normal(nearest.triangle)) > 0.0;
 }
 
@@ -49,7 +51,7 @@ void main() {
   uint stage = kKeepContact;
   while (stage < kEnd) {
     if (stage == kFindNearest) goes_on = goes_on && is_too_small(best) && start_between(contacts_tried.a, contacts_tried.b);
-    if (stage == kTouchNearest) goes_on = goes_on && touch_nearest(tried);
+    if (stage == kTouchNearest) goes_on = goes_on && touch_nearest(tried, best.ball.w);
     bool is_searched = goes_on && (stage != kKeepContact || of_image);
     search(is_searched);
     if (is_searched && stage != kFindNearest) {

@@ -92,12 +92,12 @@ struct FollowerJob::Impl {
   ContextImpl& context;
   FollowerJobOptions options;
   Arena arena;
-  Buffer vertices, indices, levels, triangles, nodes, lists, rests, states, found, sides, unresolved, balls,
+  Buffer vertices, indices, levels, triangles, bounds, nodes, lists, rests, states, found, sides, unresolved, balls,
       ball_states;
   std::uint32_t vertex_count = 0, triangle_count = 0, ball_count = 0, place_count = 0;
   bool walk_together = false;               // eight balls a walk
   bool use_texels = true;                   // triangles and nodes are not too large for views
-  std::array<VkBufferView, 5> texels = {};  // of triangles, nodes, rests, states, found
+  std::array<VkBufferView, 6> texels = {};  // of triangles, bounds, nodes, rests, states, found
   std::vector<std::uint32_t> level_sizes;
   Keys keys;
   float scale = 1;
@@ -136,31 +136,34 @@ Status FollowerJob::Impl::check_sizes(const MeshView& mesh, std::size_t all_ball
 }
 
 Status FollowerJob::Impl::make_buffers() {
-  const auto make = [&](VkDeviceSize bytes, const char* purpose, Buffer& buffer,
-                        MemoryKind kind = MemoryKind::kDevice) -> Status {
+  const auto make = [&](VkDeviceSize bytes, const char* purpose, Buffer& buffer, MemoryKind kind) -> Status {
     Result<Buffer> made = arena.create_buffer(bytes, kind, purpose);
-    if (!made.ok()) return made.error();
-    buffer = made.value();
-    return {};
+    if (made.ok()) buffer = made.value();
+    return made.ok() ? Status() : Status(made.error());
+  };
+  struct Wanted {
+    VkDeviceSize bytes;
+    const char* purpose;
+    Buffer* buffer;
   };
   const VkDeviceSize of_vertices = VkDeviceSize{vertex_count} * sizeof(RecordedVertex), n = ball_count;
-  if (Status status = make(of_vertices, "vertices that move", vertices); !status) return status;
-  if (Status status = make(VkDeviceSize{triangle_count} * 4 * sizeof(gpu::vec4), "triangles that move", triangles);
-      !status) {
-    return status;
+  const VkDeviceSize of_triangles = VkDeviceSize{triangle_count} * sizeof(gpu::vec4);
+  for (const Wanted& wanted :
+       {Wanted{of_vertices, "vertices that move", &vertices},
+        Wanted{4 * of_triangles, "triangles that move", &triangles},
+        Wanted{of_triangles, "bounds of triangles that move", &bounds},
+        Wanted{(gpu::kFollowLists + 3 * n) * 4, "lists of balls", &lists},
+        Wanted{n * sizeof(gpu::FollowState), "states of balls", &states},
+        Wanted{n * sizeof(gpu::FollowedBall), "followed balls", &found}, Wanted{n * 4, "sides of balls", &sides},
+        Wanted{(gpu::kUnresolvedFirst + n) * 4, "unresolved balls", &unresolved},
+        Wanted{n * sizeof(RecordedBall), "balls", &balls}, Wanted{n * 4, "states for the host", &ball_states}}) {
+    Status status = make(wanted.bytes, wanted.purpose, *wanted.buffer, MemoryKind::kDevice);
+    if (!status) return status;
   }
-  if (Status status = make((gpu::kFollowLists + 3 * n) * 4, "lists of balls", lists); !status) return status;
-  if (Status status = make(n * sizeof(gpu::FollowState), "states of balls", states); !status) return status;
-  if (Status status = make(n * sizeof(gpu::FollowedBall), "followed balls", found); !status) return status;
-  if (Status status = make(n * 4, "sides of balls", sides); !status) return status;
-  if (Status status = make((gpu::kUnresolvedFirst + n) * 4, "unresolved balls", unresolved); !status) return status;
-  if (Status status = make(n * sizeof(RecordedBall), "balls", balls); !status) return status;
-  if (Status status = make(n * 4, "states for the host", ball_states); !status) return status;
   frames.resize(options.frames);
   for (Frame& frame : frames) {
-    if (Status status = make(of_vertices, "vertices of a frame", frame.staged, MemoryKind::kUpload); !status) {
-      return status;
-    }
+    Status status = make(of_vertices, "vertices of a frame", frame.staged, MemoryKind::kUpload);
+    if (!status) return status;
   }
   return {};
 }
@@ -176,9 +179,9 @@ Status FollowerJob::Impl::make_views() {
     if (!made.ok()) return made.error();
     unused = made.value();
   }
-  const std::array buffers = {&triangles, &nodes, &rests, &states, &found};
+  const std::array buffers = {&triangles, &bounds, &nodes, &rests, &states, &found};
   for (std::size_t i = 0; i < buffers.size(); ++i) {
-    const VkFormat format = i == 0 ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R32G32B32A32_UINT;
+    const VkFormat format = i < 2 ? VK_FORMAT_R32G32B32A32_SFLOAT : VK_FORMAT_R32G32B32A32_UINT;
     Result<VkBufferView> view = arena.create_texel_view(use_texels ? *buffers[i] : unused, format);
     if (!view.ok()) return view.error();
     texels[i] = view.value();
@@ -188,12 +191,12 @@ Status FollowerJob::Impl::make_views() {
 
 void FollowerJob::Impl::make_keys() {
   const auto of_balls = [&](const std::string& shader, std::uint32_t group = kWorkgroupSize) {
-    constexpr std::uint32_t kStorage = 10, kTexels = 5;  // as in follow()
+    constexpr std::uint32_t kStorage = 11, kTexels = 6;  // as in follow()
     return ProgramKey{shader + storage_suffix(use_texels), kStorage, kTexels, sizeof(gpu::FollowConstants), group, {}};
   };
   const std::string lockstep = walk_together ? "_lockstep" : "";
   constexpr auto kBytes = static_cast<std::uint32_t>(sizeof(gpu::RefitConstants));
-  keys.place_triangles = {"place_triangles", 4, 0, kBytes, kWorkgroupSize, {}};
+  keys.place_triangles = {"place_triangles", 5, 0, kBytes, kWorkgroupSize, {}};
   keys.refit_leaves = {"refit_nodes", 3, 0, kBytes, kWorkgroupSize, {1, 0}};
   keys.refit_level = {"refit_nodes", 3, 0, kBytes, kWorkgroupSize, {0, 0}};
   keys.refit_small_levels = {"refit_nodes", 3, 0, kBytes, kResolveGroup, {0, 1}};
@@ -242,7 +245,7 @@ Status FollowerJob::Impl::fill(const IndexedMesh& rest, const ThreadedTree& tree
 
 void FollowerJob::Impl::refit(Recorder& r) const {
   gpu::RefitConstants constants = {triangle_count, 0, 0, scale};
-  const std::array of_triangles = {vertices.range(), indices.range(), triangles.range(), lists.range()};
+  const std::array of_triangles = {vertices.range(), indices.range(), triangles.range(), lists.range(), bounds.range()};
   r.dispatch(keys.place_triangles, of_triangles, {}, bytes_of(constants), triangle_count);
   r.barrier();
   const std::array of_nodes = {triangles.range(), nodes.range(), levels.range()};
@@ -276,7 +279,8 @@ void FollowerJob::Impl::follow(Recorder& r) const {
                               sides.range(),
                               unresolved.range(),
                               balls.range(),
-                              ball_states.range()};
+                              ball_states.range(),
+                              bounds.storage_range(use_texels)};
   const auto run = [&](const ProgramKey& key) {
     r.dispatch(key, buffers, texels, bytes_of(constants), ball_count);
     r.barrier();
@@ -336,9 +340,7 @@ Result<FollowerJob> FollowerJob::create(Context& context, const IndexedMesh& res
     Result<std::vector<gpu::FollowRest>> at_rest =
         make_rest_balls(surface.value(), balls, positions_in(tree), double{impl->scale}, options.threads);
     if (!at_rest) return at_rest.error();
-    if (Status status = impl->fill(rest, tree, at_rest.value()); !status) {
-      return status.error();
-    }
+    if (Status status = impl->fill(rest, tree, at_rest.value()); !status) return status.error();
     const auto rehearse = [&](Recorder& r) { return impl->append(r, impl->frames.front()); };
     if (Status status = make_programs(impl->context, rehearse); !status) return status.error();
     return FollowerJob(std::move(impl));

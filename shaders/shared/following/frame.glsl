@@ -2,7 +2,8 @@
 // buffers.
 //
 // A triangle is four vectors: its corners, with the inverse squares of the lengths of the edges 01, 02 and 12 (0 for an
-// edge without length), and its unit normal (0 without a meaningful area).
+// edge without length), and its unit normal (0 without a meaningful area), with the height of the corners above the plane
+// through the triangle's middle. Its bounds are that middle, and the distance of the farthest corner from it.
 //
 // A node of the tree is eight places for children, of two vectors each: the lower corner of the box as bits, and the
 // leaf, or the node that it leads to (less than 2^24; nodes below one node follow each other, and come before leaves);
@@ -25,11 +26,13 @@ layout(set = 0, binding = 6) buffer Sides { uint sides[]; };
 layout(set = 0, binding = 7) buffer Unresolved { uint unresolved[]; };
 layout(set = 0, binding = 8) writeonly buffer Balls { vec4 balls[]; };
 layout(set = 0, binding = 9) writeonly buffer BallStates { uint ball_states[]; };
-layout(set = 0, binding = 10) uniform samplerBuffer triangle_texels;
-layout(set = 0, binding = 11) uniform usamplerBuffer node_texels;
-layout(set = 0, binding = 12) uniform usamplerBuffer rest_texels;
-layout(set = 0, binding = 13) uniform usamplerBuffer state_texels;
-layout(set = 0, binding = 14) uniform usamplerBuffer found_texels;
+layout(set = 0, binding = 10) readonly buffer BoundStorage { vec4 bound_storage[]; };
+layout(set = 0, binding = 11) uniform samplerBuffer triangle_texels;
+layout(set = 0, binding = 12) uniform samplerBuffer bound_texels;
+layout(set = 0, binding = 13) uniform usamplerBuffer node_texels;
+layout(set = 0, binding = 14) uniform usamplerBuffer rest_texels;
+layout(set = 0, binding = 15) uniform usamplerBuffer state_texels;
+layout(set = 0, binding = 16) uniform usamplerBuffer found_texels;
 
 // Texels take a fraction of the time on lavapipe (tree/triangles.glsl).
 #ifdef STORAGE
@@ -38,6 +41,7 @@ const bool kUseTexels = false;
 const bool kUseTexels = true;
 #endif
 vec4 triangle_vector(uint i) { return kUseTexels ? texelFetch(triangle_texels, int(i)) : triangle_storage[i]; }
+vec4 bounds_of(uint triangle) { return kUseTexels ? texelFetch(bound_texels, int(triangle)) : bound_storage[triangle]; }
 uvec4 node_vector(uint i) { return kUseTexels ? texelFetch(node_texels, int(i)) : node_storage[i]; }
 
 uvec4 rest_vector(uint i) { return kUseTexels ? texelFetch(rest_texels, int(i)) : rest_storage[i]; }

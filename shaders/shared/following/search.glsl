@@ -15,6 +15,7 @@ float deficit;         // by which triangles are known to reach into the ball, b
 vec3 touching;         // the point that has ended the shrinking, and its triangle
 uint touching_triangle;
 bool is_complete;
+float least_wanted = -1.0;  // a search may end once its radius is not more: the ball is of no use then
 
 void place_ball() { centre = is_fixed ? centre : at + radius * towards; }
 

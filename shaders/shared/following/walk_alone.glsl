@@ -38,7 +38,7 @@ void search(bool is_wanted) {
       if (leaf != 0u || position >= end || ++descents == kDescents) break;
     }
     test_leaf(leaf);
-    if (position >= end || ++rounds >= SEARCH_ROUNDS) break;
+    if (position >= end || ++rounds >= SEARCH_ROUNDS || radius <= least_wanted) break;
   }
   is_complete = position >= end;
 }

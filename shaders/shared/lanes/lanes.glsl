@@ -36,22 +36,27 @@ uint lane_of_eight(uint k) { return (gl_SubgroupInvocationID & ~7u) + k; }
 
 float from_lane(float mine, uint k) { return subgroupShuffle(mine, lane_of_eight(k)); }
 vec2 from_lane(vec2 mine, uint k) { return subgroupShuffle(mine, lane_of_eight(k)); }
+vec3 from_lane(vec3 mine, uint k) { return subgroupShuffle(mine, lane_of_eight(k)); }
 vec4 from_lane(vec4 mine, uint k) { return subgroupShuffle(mine, lane_of_eight(k)); }
 uint from_lane(uint mine, uint k) { return subgroupShuffle(mine, lane_of_eight(k)); }
 
 vec4 opposite_lane(vec4 mine) { return subgroupShuffleXor(mine, 4u); }
 
+// Written out: lavapipe runs loops whose counter doubles, with a mask and a test of it in each turn.
 vec4 sum_of_lanes(vec4 mine) {
-  [[unroll]] for (uint k = 1; k < kLanes; k <<= 1) mine += subgroupShuffleXor(mine, k);
-  return mine;
+  mine += subgroupShuffleXor(mine, 1u);
+  mine += subgroupShuffleXor(mine, 2u);
+  return mine + subgroupShuffleXor(mine, 4u);
 }
 float least_of_lanes(float mine) {
-  [[unroll]] for (uint k = 1; k < kLanes; k <<= 1) mine = min(mine, subgroupShuffleXor(mine, k));
-  return mine;
+  mine = min(mine, subgroupShuffleXor(mine, 1u));
+  mine = min(mine, subgroupShuffleXor(mine, 2u));
+  return min(mine, subgroupShuffleXor(mine, 4u));
 }
 uint or_of_lanes(uint mine) {
-  [[unroll]] for (uint k = 1; k < kLanes; k <<= 1) mine |= subgroupShuffleXor(mine, k);
-  return mine;
+  mine |= subgroupShuffleXor(mine, 1u);
+  mine |= subgroupShuffleXor(mine, 2u);
+  return mine | subgroupShuffleXor(mine, 4u);
 }
 uvec2 count_lanes(uint mine) {
   uvec2 sum = uvec2(0u);
