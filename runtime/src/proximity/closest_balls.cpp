@@ -226,28 +226,36 @@ class BallSearch {
     for (; pairs != 0; pairs &= pairs - 1) {
       const auto bit = static_cast<std::uint32_t>(std::countr_zero(pairs));
       const std::uint32_t k = bit / kWidth, j = bit % kWidth;
-      const float x = a.centre[0][k] - to.x[j], y = a.centre[1][k] - to.y[j], z = a.centre[2][k] - to.z[j];
-      const float separation = std::sqrt(x * x + y * y + z * z) - (a.radius[k] + b.radius[j]);
+      const float separation = separation_of_pair(a, k, b, j, to);
       if (separation < best_.separation) best_ = {separation, {a.below[k], b.below[j]}};
     }
   }
 
-  /// Tasks for these pairs.
+  /// Tasks for these pairs. Those whose separation is that of the best, but for the rounding of squares, go no further:
+  /// of many equal balls all pairs would be compared. (With a node of the lowest level a pair stands for several.)
   MEDIAL_VK_INLINE void divide(const Task& task, const BodyNode& a, const BodyNode& b, const StoredCentres& to,
                                std::uint64_t pairs) {
     const bool are_lowest =
         (a.is_lowest || a_.node(a.below[0]).is_lowest) && (b.is_lowest || b_.node(b.below[0]).is_lowest);
-    Task* next = are_lowest ? lowest_.data() + lowest_count_ : tasks_.data() + count_;
-    (are_lowest ? lowest_count_ : count_) += static_cast<std::size_t>(std::popcount(pairs));
+    const float below_this = a.is_lowest || b.is_lowest ? kFarther : best_.separation;
+    Task* const tasks = are_lowest ? lowest_.data() : tasks_.data();
+    std::size_t& count = are_lowest ? lowest_count_ : count_;
     for (; pairs != 0; pairs &= pairs - 1) {
       const auto bit = static_cast<std::uint32_t>(std::countr_zero(pairs));
       const std::uint32_t k = bit / kWidth, j = bit % kWidth;
-      Task& below = *next++;
+      Task& below = tasks[count];
       below.node_a = a.is_lowest ? task.node_a : a.below[k];
       below.node_b = b.is_lowest ? task.node_b : b.below[j];
       below.a = a.is_lowest ? task.a : Around{a.centre[0][k], a.centre[1][k], a.centre[2][k], a.radius[k]};
       below.b = b.is_lowest ? task.b : Around{to.x[j], to.y[j], to.z[j], b.radius[j]};
+      count += separation_of_pair(a, k, b, j, to) < below_this ? 1 : 0;
     }
+  }
+
+  MEDIAL_VK_INLINE static float separation_of_pair(const BodyNode& a, std::uint32_t k, const BodyNode& b,
+                                                   std::uint32_t j, const StoredCentres& to) {
+    const float x = a.centre[0][k] - to.x[j], y = a.centre[1][k] - to.y[j], z = a.centre[2][k] - to.z[j];
+    return std::sqrt(x * x + y * y + z * z) - (a.radius[k] + b.radius[j]);
   }
 
   const NodeTree& a_;
