@@ -363,10 +363,9 @@ TEST(AnyBoundary, ProgressGrowsToOne) {
 TEST(AxisDistance, BoundsTheDistanceToTheBisector) {
   std::mt19937_64 random(9);
   std::uniform_real_distribution<> share(-1, 1);
-  const auto moved = [&](const Point& p, double error) {
-    Point offset;
-    for (double& x : offset) x = share(random);
-    return p + (error * std::fabs(share(random)) / length(offset)) * offset;
+  // Farther from `at`, or nearer for a negative shift: what misleads most.
+  const auto moved = [](const Point& p, const Point& at, double shift) {
+    return p + (shift / length(p - at)) * (p - at);
   };
   int useful = 0;
   for (int i = 0; i < 40'000; ++i) {
@@ -375,7 +374,7 @@ TEST(AxisDistance, BoundsTheDistanceToTheBisector) {
     Point at = {off, 0, 0};
     for (std::size_t k = 1; k < 3; ++k) at[k] = 2 * share(random);
     const double error = i % 2 == 0 ? 0 : off * std::fabs(share(random));
-    const Point nearest = moved(b, error), near_a = moved(a, error), near_b = moved(b, error);
+    const Point nearest = moved(b, at, error), near_a = moved(a, at, -error), near_b = moved(b, at, -error);
     const double bound = any_boundary::axis_distance({at, nearest, near_a, near_b}, error);
     ASSERT_GE(bound, off * (1 - 1e-9));
     useful += bound < 20 * off ? 1 : 0;
