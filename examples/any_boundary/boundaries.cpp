@@ -18,13 +18,19 @@ namespace {
 using medial_vk::BoundaryFunctions;
 using medial_vk::Point;
 
-/// Answers for many points by `nearest`, which answers for one, and by `is_inside`.
-template <class Nearest, class IsInside>
-BoundaryFunctions boundary_of(const Nearest& nearest, const IsInside& is_inside) {
+/// Answers for many points by `nearest`, which answers for one.
+template <class Nearest>
+BoundaryFunctions boundary_of(const Nearest& nearest) {
   BoundaryFunctions boundary;
   boundary.nearest = [nearest](std::span<const Point> points, std::span<Point> answers) {
     std::transform(points.begin(), points.end(), answers.begin(), nearest);
   };
+  return boundary;
+}
+
+template <class Nearest, class IsInside>
+BoundaryFunctions boundary_of(const Nearest& nearest, const IsInside& is_inside) {
+  BoundaryFunctions boundary = boundary_of(nearest);
   boundary.contains = [is_inside](std::span<const Point> points, std::span<std::uint8_t> answers) {
     std::transform(points.begin(), points.end(), answers.begin(),
                    [&](const Point& p) { return is_inside(p) ? std::uint8_t{1} : std::uint8_t{0}; });
@@ -117,22 +123,18 @@ Point nearest_by_gradient(const Function& f, const Point& p, double error) {
 
 BoundaryFunctions torus() {
   constexpr double kTube = 0.4;
-  const auto on_circle = [](const Point& p) {
-    const double across = std::hypot(p[0], p[1]);
-    return across > 0 ? Point{p[0] / across, p[1] / across, 0} : Point{1, 0, 0};
+  // In the half plane of p that ends at the axis of rotation, across is the distance from the axis, and the tube a
+  // circle around (1, 0). The answer is computed from there, so that it is on the torus also where p is close to the
+  // circle of all centres.
+  const auto nearest = [](const Point& p) {
+    const double across = std::hypot(p[0], p[1]), off = std::hypot(across - 1, p[2]);
+    const double u = off > 0 ? (across - 1) / off : 0,
+                 v = off > 0 ? p[2] / off : 1;  // all points are equally far for 0
+    const double x = across > 0 ? p[0] / across : 1, y = across > 0 ? p[1] / across : 0;
+    return Point{(1 + kTube * u) * x, (1 + kTube * u) * y, kTube * v};
   };
-  const auto distance = [](const Point& p, const Point& q) {
-    return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
-  };
-  BoundaryFunctions boundary = boundary_of(
-      [=](const Point& p) {
-        const Point c = on_circle(p);
-        const double off = distance(p, c);
-        if (!(off > 0)) return Point{c[0], c[1], kTube};  // all points of the tube's circle are equally far
-        const double t = kTube / off;
-        return Point{c[0] + t * (p[0] - c[0]), c[1] + t * (p[1] - c[1]), t * p[2]};
-      },
-      [=](const Point& p) { return distance(p, on_circle(p)) < kTube; });
+  const auto is_inside = [](const Point& p) { return std::hypot(std::hypot(p[0], p[1]) - 1, p[2]) < kTube; };
+  BoundaryFunctions boundary = boundary_of(nearest, is_inside);
   boundary.lower = {-1.4, -1.4, -0.4};
   boundary.upper = {1.4, 1.4, 0.4};
   return boundary;
@@ -147,8 +149,7 @@ BoundaryFunctions helix_of_points() {
     points.push_back({std::cos(angle), std::sin(angle), 0.5 * t});
   }
   const auto cloud = std::make_shared<Cloud>(std::move(points));
-  BoundaryFunctions boundary =
-      boundary_of([cloud](const Point& p) { return cloud->nearest(p); }, [](const Point&) { return true; });
+  BoundaryFunctions boundary = boundary_of([cloud](const Point& p) { return cloud->nearest(p); });
   boundary.lower = {-1.2, -1.2, -0.1};
   boundary.upper = {1.2, 1.2, 2.1};
   return boundary;

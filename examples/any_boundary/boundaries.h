@@ -12,8 +12,8 @@ medial_vk::BoundaryFunctions torus();
 /// have no inside.
 medial_vk::BoundaryFunctions helix_of_points();
 
-/// A box with rounded edges, by its signed distance function alone: an implicit surface whose function tells distances.
-/// Nearest points are found along its gradient, with an error that is stated.
+/// A box with rounded edges, by its signed distance function alone: an implicit surface whose function tells distances,
+/// so that nearest points are found along its gradient, with an error that is stated, and wrong ones are known.
 medial_vk::BoundaryFunctions rounded_box();
 
 }  // namespace any_boundary

@@ -33,7 +33,7 @@ int main(int count, char** arguments) {
   if (count < 2 || count > 3) return usage();
   medial_vk::ExtractionOptions options;
   options.resolution = 24;
-  options.extra_levels = 2;
+  options.extra_levels = 3;  // cells of an eighth of a voxel are dismissed at a depth of one
   if (count == 3) {
     const int resolution = std::atoi(arguments[2]);
     if (resolution < 4 || resolution > 200) return usage();

@@ -73,7 +73,7 @@ enum class UndecidedKind : std::uint32_t {
   kNearFace,   ///< It lies within 1/64 of the voxel side of a face of its voxel.
   kNearAngle,  ///< Its object angle is below object_angle + 0.05.
   /// Its radius is below 1/8 of the voxel side, or the boundary passes through that part of the voxel with triangles
-  /// whose normals are not trusted.
+  /// whose normals are not trusted. (Without triangles: its radius is below the voxel side; any_boundary.h.)
   kBoundary,
   kOther,
 };

@@ -22,8 +22,16 @@ namespace {
 
 using namespace any_boundary;
 
-// Of the side of a voxel: a fraction of the least epsilon.
-constexpr double kMostRounding = 0x1p-14;
+// Of the side of a voxel: a fraction of the greatest_error() for the least epsilon and an object angle of 0.15.
+constexpr double kMostRounding = 0x1p-20;
+
+/// In voxel sides: with a greater one axis_distance() exceeds epsilon wherever two contacts are equally far. Mode
+/// thesis has no such bound, but bisects lines to epsilon.
+double greatest_error(const ExtractionOptions& options) {
+  if (options.mode == Mode::kThesis) return 0.5 * options.epsilon;
+  const double angle = options.radius > 0 ? std::min(options.deep_angle, options.object_angle) : options.object_angle;
+  return 0.5 * options.epsilon * (1 - std::cos(angle));
+}
 
 Status check(const BoundaryFunctions& boundary, const ExtractionOptions& options) {
   if (Status status = check_options(options); !status.ok()) return status;
@@ -37,11 +45,11 @@ Status check(const BoundaryFunctions& boundary, const ExtractionOptions& options
     if (!std::isfinite(extent[k]) || extent[k] < 0) return usage("`lower` and `upper` must span a finite box");
   }
   const double longest = std::max({extent[0], extent[1], extent[2]});
-  if (!(longest > 0)) return usage("`lower` and `upper` must span a finite box");
+  // Beyond, squares and cubes of lengths are no doubles.
+  if (!(longest >= 1e-90 && longest <= 1e90)) return usage("the longest side of the box must be 1e-90 to 1e90");
   const double voxel = longest / options.resolution;
-  // No proof succeeds with a larger one: axis_distance() is at least twice as large.
-  if (!(boundary.error >= 0 && boundary.error <= 0.5 * options.epsilon * voxel)) {
-    return usage("`error` must be 0 or more, and no greater than half of `epsilon`");
+  if (!(boundary.error >= 0 && boundary.error <= greatest_error(options) * voxel)) {
+    return usage("`error` must be 0 or more, and at most epsilon (1 - cos `object_angle`) / 2 voxel sides");
   }
   if (BoundaryQueries(boundary).error() - boundary.error > kMostRounding * voxel) {
     return usage("`lower` and `upper` are too far from the origin for a box of this size");
@@ -57,8 +65,9 @@ Salience salience_of(const ExtractionOptions& options, double longest_side) {
 
 /// Equation 2.4 on the sphere around each ball's voxel.
 void measure_flux(const SearchFrame& frame, const std::vector<Point>& directions, unsigned threads,
-                  std::vector<FoundBall>& found) {
+                  const LoopWatch& watch, std::vector<FoundBall>& found) {
   parallel_blocks(found.size(), 64, threads, [&](std::size_t begin, std::size_t end) {
+    watch.check();
     SphereSamples samples;
     for (std::size_t i = begin; i < end; ++i) {
       const Point centre = frame.grid.centre(found[i].voxel, frame.grid.voxel_depth());
@@ -99,7 +108,7 @@ BoundaryExtraction search(const BoundaryFunctions& boundary, const ExtractionOpt
   LoopWatch watch(progress, stop);
   SearchResult searched = is_certified ? search_certified(frame, options.threads, watch)
                                        : search_as_published(frame, options.thesis, spirals, options.threads, watch);
-  if (is_certified) measure_flux(frame, spirals.back(), options.threads, searched.found);
+  if (is_certified) measure_flux(frame, spirals.back(), options.threads, watch, searched.found);
   BoundaryExtraction out = in_voxel_order(std::move(searched), frame);
   out.extraction.measurements.counters.queries = queries.count();
   if (progress) progress(1);
@@ -116,8 +125,8 @@ Result<BoundaryExtraction> extract_medial_spheres(const BoundaryFunctions& bound
       return search(boundary, options, progress, stop);
     } catch (const LoopStopped&) {
       return LoopStopped::error();
-    } catch (const AnswerNotFinite&) {
-      return Error{ErrorCode::kUsage, "`nearest` gave a point that is not finite"};
+    } catch (const BadAnswer& bad) {
+      return bad.error();
     }
   });
 }

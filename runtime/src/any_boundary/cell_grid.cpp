@@ -39,7 +39,8 @@ CellIndex cell_of_code(std::uint64_t code) { return {gather(code), gather(code >
 CellGrid::CellGrid(const Point& lower, const Point& upper, std::uint32_t resolution, std::uint32_t extra_levels) {
   const Point extent = upper - lower;
   voxels_.origin = lower;
-  voxels_.voxel_size = std::max({extent[0], extent[1], extent[2]}) / resolution;
+  longest_side_ = std::max({extent[0], extent[1], extent[2]});
+  voxels_.voxel_size = longest_side_ / resolution;
   for (std::size_t k = 0; k < 3; ++k) {
     // The longest side is `resolution` voxels up to rounding, which must not add a layer.
     voxels_.size[k] = static_cast<std::uint32_t>(std::max(1.0, std::ceil(extent[k] / voxels_.voxel_size - 1e-9)));
@@ -65,6 +66,15 @@ bool CellGrid::reaches(std::uint64_t code, int depth) const {
     if (first_voxel >= voxels_.size[k]) return false;
   }
   return true;
+}
+
+void CellGrid::add_parts(std::span<const std::uint64_t> codes, int depth, std::vector<std::uint64_t>& parts) const {
+  for (const std::uint64_t cell : codes) {
+    for (std::uint64_t part = 0; part < 8; ++part) {
+      const std::uint64_t code = cell << 3 | part;
+      if (reaches(code, depth + 1)) parts.push_back(code);
+    }
+  }
 }
 
 bool CellGrid::holds(std::uint64_t voxel, const Point& p) const {

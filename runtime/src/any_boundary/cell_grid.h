@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "medial_vk/medial_spheres.h"
 
@@ -28,15 +30,19 @@ class CellGrid {
   int last_depth() const { return last_depth_; }
 
   double side(int depth) const;
+  double share_of_longest_side(int depth) const { return side(depth) / longest_side_; }
   Point centre(std::uint64_t code, int depth) const;
   /// False for cells wholly beyond the last voxels.
   bool reaches(std::uint64_t code, int depth) const;
   /// The voxel that holds a cell of `depth`, at least voxel_depth().
   std::uint64_t voxel_of(std::uint64_t code, int depth) const { return code >> (3 * (depth - voxel_depth_)); }
   bool holds(std::uint64_t voxel, const Point& p) const;
+  /// Appends the parts of cells of `depth` that reach into the grid, in order.
+  void add_parts(std::span<const std::uint64_t> codes, int depth, std::vector<std::uint64_t>& parts) const;
 
  private:
   VoxelGrid voxels_;
+  double longest_side_;  // of the box
   int voxel_depth_ = 0, last_depth_ = 0;
 };
 

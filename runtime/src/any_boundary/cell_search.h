@@ -15,7 +15,7 @@ namespace medial_vk::any_boundary {
 /// A cell that may hold a salient medial point.
 struct OpenCell {
   std::uint64_t code = 0;
-  double width = 0;            ///< That the contacts of such a point are apart at most.
+  double width = 0;            ///< The greatest distance between two contacts of such a point.
   bool is_near_angle = false;  ///< Such a point has an object angle below the threshold plus 0.05.
   bool is_shallow = false;     ///< Such a point has a radius below the side of a voxel.
 };

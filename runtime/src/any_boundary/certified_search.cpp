@@ -15,6 +15,7 @@ namespace {
 constexpr int kFirstDepth = 3;
 // Of a voxel at one depth: with more, the voxel is left undecided, as their number grows fourfold with each depth.
 constexpr std::size_t kCellsOfVoxel = 512;
+constexpr std::size_t kVoxelsAtATime = 4096;
 
 /// What is left of an undecided voxel: the first kind that all of its cells have.
 class Remains {
@@ -48,15 +49,21 @@ class CertifiedSearch {
     const CellGrid& grid = frame_.grid;
     int depth = std::min(kFirstDepth, grid.voxel_depth());
     begin(depth);
-    for (; depth <= grid.last_depth() && !cells_.empty(); ++depth) {
+    for (; depth < grid.voxel_depth(); ++depth) {
       search(depth);
-      if (depth < grid.voxel_depth()) {
-        divide(depth);
-        continue;
-      }
-      keep_found(depth);
-      settle(depth);
       divide(depth);
+    }
+    voxels_ = cells_.size();
+    search(depth);
+    keep_found(depth);
+    settle(depth);
+    // Voxels are independent: so many at a time need little memory.
+    const std::vector<OpenCell> voxels = std::move(open_);
+    for (std::size_t first = 0; first < voxels.size(); first += kVoxelsAtATime) {
+      const auto begin = voxels.begin() + static_cast<std::ptrdiff_t>(first);
+      open_.assign(begin, begin + static_cast<std::ptrdiff_t>(std::min(kVoxelsAtATime, voxels.size() - first)));
+      search_parts(depth);
+      watch_.finish(std::min(kVoxelsAtATime, voxels.size() - first), voxels.size());
     }
     return result();
   }
@@ -70,6 +77,15 @@ class CertifiedSearch {
     }
   }
 
+  /// Divides the open voxels down to the last depth.
+  void search_parts(int depth) {
+    for (divide(depth); !cells_.empty(); divide(depth)) {
+      search(++depth);
+      keep_found(depth);
+      settle(depth);
+    }
+  }
+
   /// Fills open_ and found_ with what is left of cells_.
   void search(int depth) {
     std::vector<Span> blocks;
@@ -79,7 +95,6 @@ class CertifiedSearch {
       ++blocks.back().second;
     }
     std::vector<SearchedCells> parts(blocks.size());
-    const std::size_t depths = static_cast<std::size_t>(frame_.grid.last_depth()) + 1;
     parallel_blocks(blocks.size(), 4, threads_, [&](std::size_t begin, std::size_t end) {
       CellSearch cell_search(frame_);
       for (std::size_t i = begin; i < end; ++i) {
@@ -88,20 +103,22 @@ class CertifiedSearch {
         cell_search.run(depth, std::span(cells_).subspan(first, last - first), parts[i]);
       }
     });
-    watch_.finish(1, depths);
     open_.clear();
     found_.clear();
     for (const SearchedCells& part : parts) {
       open_.insert(open_.end(), part.open.begin(), part.open.end());
       found_.insert(found_.end(), part.found.begin(), part.found.end());
     }
-    ExtractionCounters::Level level;
-    level.cell_size = frame_.grid.side(depth);
-    level.visited = cells_.size();
-    if (depth == frame_.grid.voxel_depth()) voxels_ = cells_.size();
-    level.kept = open_.size();
-    level.lines = found_.size();
-    out_.counters.levels.push_back(level);
+    ExtractionCounters::Level& level = level_of(depth);
+    level.cell_size = frame_.grid.share_of_longest_side(depth);
+    level.visited += cells_.size();
+    level.kept += open_.size();
+  }
+
+  ExtractionCounters::Level& level_of(int depth) {
+    const auto index = static_cast<std::size_t>(depth - std::min(kFirstDepth, frame_.grid.voxel_depth()));
+    if (out_.counters.levels.size() <= index) out_.counters.levels.resize(index + 1);
+    return out_.counters.levels[index];
   }
 
   /// Of each voxel, the ball with the greatest object angle. Their cells need no more search.
@@ -112,7 +129,7 @@ class CertifiedSearch {
     std::sort(found_.begin(), found_.end(), [&](const FoundBall& a, const FoundBall& b) { return rank(a) < rank(b); });
     const auto same = [](const FoundBall& a, const FoundBall& b) { return a.voxel == b.voxel; };
     found_.erase(std::unique(found_.begin(), found_.end(), same), found_.end());
-    out_.counters.levels.back().found = found_.size();
+    level_of(depth).found += found_.size();
     std::vector<OpenCell> left;
     auto ball = found_.begin();
     for (const OpenCell& cell : open_) {
@@ -147,13 +164,11 @@ class CertifiedSearch {
   }
 
   void divide(int depth) {
+    std::vector<std::uint64_t> codes;
+    codes.reserve(open_.size());
+    for (const OpenCell& cell : open_) codes.push_back(cell.code);
     cells_.clear();
-    for (const OpenCell& cell : open_) {
-      for (std::uint64_t part = 0; part < 8; ++part) {
-        const std::uint64_t code = cell.code << 3 | part;
-        if (frame_.grid.reaches(code, depth + 1)) cells_.push_back(code);
-      }
-    }
+    frame_.grid.add_parts(codes, depth, cells_);
   }
 
   SearchResult result() {

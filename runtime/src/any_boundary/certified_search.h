@@ -15,7 +15,7 @@ struct SearchResult {
   ExtractionCounters counters;
 };
 
-/// Throws std::bad_alloc, LoopStopped, AnswerNotFinite, and whatever the boundary's functions throw.
+/// Throws std::bad_alloc, LoopStopped, BadAnswer, and whatever the boundary's functions throw.
 SearchResult search_certified(const SearchFrame& frame, unsigned threads, LoopWatch& watch);
 
 }  // namespace medial_vk::any_boundary

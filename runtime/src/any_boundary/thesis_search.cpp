@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "any_boundary/sphere_samples.h"
@@ -16,12 +17,12 @@
 namespace medial_vk::any_boundary {
 namespace {
 
-constexpr std::size_t kCellsOfABlock = 16;
+constexpr std::size_t kCellsOfABlock = 64;
 
-/// What a thread finds in a cell.
-struct Visited {
-  bool is_kept = false;
-  std::optional<ApproximateBall> ball;
+/// What is left of a block of cells.
+struct Kept {
+  std::vector<std::uint64_t> cells;
+  std::vector<FoundBall> found;
 };
 
 class CellVisit {
@@ -30,28 +31,37 @@ class CellVisit {
             const std::array<std::vector<Point>, kThesisDepths>& spirals)
       : frame_(frame), options_(options), spirals_(spirals) {}
 
-  Visited visit(std::uint64_t code, int depth) {
-    const Point centre = frame_.grid.centre(code, depth);
-    const double side = frame_.grid.side(depth);
-    Point nearest;
-    std::uint8_t is_inside = 0;
-    frame_.queries.nearest({&centre, 1}, {&nearest, 1});
-    frame_.queries.contains({&centre, 1}, {&is_inside, 1});
-    const double distance = length(nearest - centre);
-    if (is_inside == 0 && distance - frame_.queries.error() > kHalfDiagonal * side) return {};
-    const bool sphere_inside = is_inside != 0 && distance >= side;
-    if (depth < frame_.grid.voxel_depth()) return {!sphere_inside || sample(centre, side, depth) > 0, {}};
-    if (!sphere_inside && !options_.narrow_features) return {};
-    const double flux = sample(centre, side, depth);
-    if (sphere_inside && !is_preselected(flux)) return {};
-    Visited out;
-    out.is_kept = true;
-    out.ball = search(code, centre);
-    if (out.ball) out.ball->sphere.flux = static_cast<float>(flux);
-    return out;
+  void visit(std::span<const std::uint64_t> codes, int depth, Kept& kept) {
+    std::vector<Point> centres, nearest(codes.size());
+    std::vector<std::uint8_t> inside(codes.size());
+    centres.reserve(codes.size());
+    for (const std::uint64_t code : codes) centres.push_back(frame_.grid.centre(code, depth));
+    frame_.queries.nearest(centres, nearest);
+    frame_.queries.contains(centres, inside);
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+      visit(codes[i], depth, centres[i], length(nearest[i] - centres[i]), inside[i] != 0, kept);
+    }
   }
 
  private:
+  void visit(std::uint64_t code, int depth, const Point& centre, double distance, bool is_inside, Kept& kept) {
+    const double side = frame_.grid.side(depth);
+    if (!is_inside && distance - frame_.queries.error() > kHalfDiagonal * side) return;
+    const bool sphere_inside = is_inside && distance >= side;
+    if (depth < frame_.grid.voxel_depth()) {
+      if (!sphere_inside || sample(centre, side, depth) > 0) kept.cells.push_back(code);
+      return;
+    }
+    if (!sphere_inside && !options_.narrow_features) return;
+    const double flux = sample(centre, side, depth);
+    if (sphere_inside && !is_preselected(flux)) return;
+    kept.cells.push_back(code);
+    std::optional<ApproximateBall> ball = search(code, centre);
+    if (!ball) return;
+    ball->sphere.flux = static_cast<float>(flux);
+    kept.found.push_back({code, *ball});
+  }
+
   double sample(const Point& centre, double side, int depth) {
     const int from_last = frame_.grid.voxel_depth() - depth;
     samples_.query(centre, side, spirals_.at(static_cast<std::size_t>(kThesisDepths - 1 - from_last)), frame_.queries);
@@ -81,7 +91,9 @@ class CellVisit {
     salience.deep_angle = 0;  // mode thesis has no least angle of deep points
     for (const AimedLine& line : lines_) {
       if (!frame_.grid.holds(voxel, line.begin)) continue;
-      const Contacts contacts = {line.begin, line.a, line.a, line.b};
+      Contacts contacts = {line.begin, {}, line.a, line.b};
+      // `a` was as near as the answer at `begin` only up to errors.
+      frame_.queries.nearest({&contacts.at, 1}, {&contacts.nearest, 1});
       std::optional<ApproximateBall> ball =
           ball_at(contacts, voxel, salience, frame_.queries.error(), std::numeric_limits<double>::max());
       if (ball && is_inside(line.begin)) return ball;
@@ -172,29 +184,24 @@ SearchResult search_as_published(const SearchFrame& frame, const ThesisOptions& 
   SearchResult out;
   std::vector<std::uint64_t> cells = first_cells(frame.grid, depth);
   for (; depth <= last; ++depth) {
-    std::vector<Visited> visited(cells.size());
+    std::vector<Kept> blocks((cells.size() + kCellsOfABlock - 1) / kCellsOfABlock);
     parallel_blocks(cells.size(), kCellsOfABlock, threads, [&](std::size_t begin, std::size_t end) {
-      CellVisit cell_visit(frame, options, spirals);
       watch.check();
-      for (std::size_t i = begin; i < end; ++i) visited[i] = cell_visit.visit(cells[i], depth);
+      CellVisit(frame, options, spirals)
+          .visit(std::span(cells).subspan(begin, end - begin), depth, blocks[begin / kCellsOfABlock]);
     });
     watch.finish(1, kThesisDepths);
     ExtractionCounters::Level level;
-    level.cell_size = frame.grid.side(depth);
+    level.cell_size = frame.grid.share_of_longest_side(depth);
     level.visited = cells.size();
-    std::vector<std::uint64_t> parts;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      if (!visited[i].is_kept) continue;
-      ++level.kept;
-      if (visited[i].ball) out.found.push_back({cells[i], *visited[i].ball});
-      for (std::uint64_t part = 0; depth < last && part < 8; ++part) {
-        const std::uint64_t code = cells[i] << 3 | part;
-        if (frame.grid.reaches(code, depth + 1)) parts.push_back(code);
-      }
+    cells.clear();
+    for (const Kept& kept : blocks) {
+      level.kept += kept.cells.size();
+      level.found += kept.found.size();
+      out.found.insert(out.found.end(), kept.found.begin(), kept.found.end());
+      if (depth < last) frame.grid.add_parts(kept.cells, depth, cells);
     }
-    level.found = out.found.size();
     out.counters.levels.push_back(level);
-    cells.swap(parts);
   }
   out.counters.found = out.found.size();
   return out;

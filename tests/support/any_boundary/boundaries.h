@@ -35,17 +35,16 @@ inline BoundaryFunctions make_boundary(const std::function<Point(const Point&)>&
   return boundary;
 }
 
-/// A tube of radius 0.4 around the circle of radius 1 in the plane z = 0, which is its medial axis.
+/// A tube of radius 0.4 around the circle of radius 1 in the plane z = 0, which is its medial axis. Answers are
+/// computed in the half plane of the point, so that they are on the torus also where it is close to the circle.
 inline BoundaryFunctions torus() {
-  const auto on_circle = [](const Point& p) {
-    const double across = std::hypot(p[0], p[1]);
-    return across > 0 ? Point{p[0] / across, p[1] / across, 0} : Point{1, 0, 0};
+  const auto nearest = [](const Point& p) {
+    const double across = std::hypot(p[0], p[1]), off = std::hypot(across - 1, p[2]);
+    const double u = off > 0 ? (across - 1) / off : 0, v = off > 0 ? p[2] / off : 1;
+    const double x = across > 0 ? p[0] / across : 1, y = across > 0 ? p[1] / across : 0;
+    return Point{(1 + 0.4 * u) * x, (1 + 0.4 * u) * y, 0.4 * v};
   };
-  const auto nearest = [on_circle](const Point& p) {
-    const Point c = on_circle(p), v = p - c;
-    return length(v) > 0 ? c + (0.4 / length(v)) * v : c + Point{0, 0, 0.4};
-  };
-  const auto is_inside = [on_circle](const Point& p) { return length(p - on_circle(p)) < 0.4; };
+  const auto is_inside = [](const Point& p) { return std::hypot(std::hypot(p[0], p[1]) - 1, p[2]) < 0.4; };
   return make_boundary(nearest, is_inside, {-1.4, -1.4, -0.4}, {1.4, 1.4, 0.4});
 }
 

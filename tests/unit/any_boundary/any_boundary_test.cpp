@@ -6,12 +6,15 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <optional>
 #include <random>
 #include <set>
 #include <stdexcept>
 #include <stop_token>
 
 #include "any_boundary/approximate_ball.h"
+#include "medial_vk/sheets.h"
 #include "support/any_boundary/boundaries.h"
 
 namespace medial_vk::test {
@@ -60,7 +63,7 @@ void expect_sound(const BoundaryExtraction& result, const BoundaryFunctions& bou
   for (const MedialSphere& sphere : extraction.spheres) {
     Point nearest;
     boundary.nearest({&sphere.centre, 1}, {&nearest, 1});
-    EXPECT_LE(sphere.radius, length(sphere.centre - nearest) + boundary.error);
+    EXPECT_LE(sphere.radius, length(sphere.centre - nearest));
     EXPECT_GT(sphere.object_angle, kTheta - 1e-6);
     EXPECT_EQ(voxel_of(extraction.grid, sphere.centre), sphere.voxel);
     EXPECT_TRUE(voxels.insert(sphere.voxel).second);
@@ -155,23 +158,60 @@ TEST(AnyBoundary, ACloudOfTwoPointsHasAPlane) {
     EXPECT_TRUE(answered.found.count(voxel) + answered.undecided.count(voxel) > 0);
   }
   EXPECT_GT(points, 1000);
+  EXPECT_GT(answered.found.size(), 30u);
+  EXPECT_GT(result.extraction.measurements.counters.proved_empty, answered.undecided.size());
+}
+
+/// The box, by answers that are off by up to `error`, and of which any that is near enough may be given.
+BoundaryFunctions rough_box(double error) {
+  BoundaryFunctions boundary = box();
+  boundary.error = error;
+  const std::function<void(std::span<const Point>, std::span<Point>)> exact = boundary.nearest;
+  boundary.nearest = [exact, error](std::span<const Point> points, std::span<Point> answers) {
+    exact(points, answers);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double angle = 1e6 * (points[i][0] + 2 * points[i][1] + 3 * points[i][2]);
+      answers[i] = answers[i] + (0.99 * error) * Point{std::cos(angle), std::sin(angle), 0};
+    }
+  };
+  return boundary;
+}
+
+/// To the medial axis of the box: the bisectors of its faces, where these are the nearest two.
+double distance_to_axis_of_box(const Point& p) {
+  std::array<double, 3> depths;
+  for (std::size_t k = 0; k < 3; ++k) depths[k] = kHalfBox[k] - std::fabs(p[k]);
+  // The middle plane of two parallel faces, and the planes between the nearest face and others at right angles.
+  const std::size_t near = static_cast<std::size_t>(std::min_element(depths.begin(), depths.end()) - depths.begin());
+  double least = std::fabs(p[near]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (k != near) least = std::min(least, (depths[k] - depths[near]) / std::numbers::sqrt2);
+  }
+  return least;
 }
 
 TEST(AnyBoundary, AnswersMayHaveAnError) {
-  BoundaryFunctions boundary = box();
-  boundary.error = 1e-4;
-  const std::function<void(std::span<const Point>, std::span<Point>)> exact = boundary.nearest;
-  boundary.nearest = [exact](std::span<const Point> points, std::span<Point> answers) {
-    exact(points, answers);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const double angle = 1e4 * (points[i][0] + 2 * points[i][1] + 3 * points[i][2]);
-      answers[i] = answers[i] + 0.99e-4 * Point{std::cos(angle), std::sin(angle), 0};
+  std::mt19937_64 random(11);
+  for (const Mode mode : {Mode::kCertified, Mode::kThesis}) {
+    ExtractionOptions options = options_of(16);
+    options.mode = mode;
+    const BoundaryFunctions boundary = rough_box(1e-4);
+    const BoundaryExtraction result = extract(boundary, options);
+    EXPECT_GT(result.extraction.spheres.size(), 300u);
+    for (std::size_t i = 0; i < result.extraction.spheres.size(); ++i) {
+      const MedialSphere& sphere = result.extraction.spheres[i];
+      EXPECT_LE(sphere.radius, length(sphere.centre - nearest_on_box(sphere.centre)));
+      EXPECT_GE(result.axis_distance[i], distance_to_axis_of_box(sphere.centre) - 1e-12);
     }
-  };
-  const BoundaryExtraction result = extract(boundary, options_of(16));
-  EXPECT_GT(result.extraction.spheres.size(), 300u);
-  for (const MedialSphere& sphere : result.extraction.spheres) {
-    EXPECT_LE(sphere.radius, length(sphere.centre - nearest_on_box(sphere.centre)));
+    if (mode == Mode::kThesis) continue;
+    const Answered answered(result.extraction);
+    for (int points = 0; points < 5000;) {
+      const std::optional<Point> p = medial_point_of_box(random);
+      if (!p) continue;
+      ++points;
+      const Voxel voxel = voxel_of(result.extraction.grid, *p);
+      EXPECT_TRUE(answered.found.count(voxel) + answered.undecided.count(voxel) > 0);
+    }
   }
 }
 
@@ -186,13 +226,47 @@ TEST(AnyBoundary, TheResultDependsNotOnThreads) {
     ASSERT_EQ(one.extraction.spheres.size(), three.extraction.spheres.size());
     for (std::size_t i = 0; i < one.extraction.spheres.size(); ++i) {
       EXPECT_EQ(one.extraction.spheres[i].centre, three.extraction.spheres[i].centre);
+      EXPECT_EQ(one.extraction.spheres[i].flux, three.extraction.spheres[i].flux);
       EXPECT_EQ(one.axis_distance[i], three.axis_distance[i]);
     }
-    EXPECT_EQ(one.extraction.undecided.size(), three.extraction.undecided.size());
+    ASSERT_EQ(one.extraction.undecided.size(), three.extraction.undecided.size());
+    for (std::size_t i = 0; i < one.extraction.undecided.size(); ++i) {
+      EXPECT_EQ(one.extraction.undecided[i].voxel, three.extraction.undecided[i].voxel);
+      EXPECT_EQ(one.extraction.undecided[i].kind, three.extraction.undecided[i].kind);
+      EXPECT_EQ(one.extraction.undecided[i].width, three.extraction.undecided[i].width);
+    }
+    EXPECT_EQ(one.extraction.measurements.counters.queries, three.extraction.measurements.counters.queries);
   }
 }
 
-// The flux through spheres around voxels on the plane x = 0 is that of two half balls: half of 1 on either side.
+TEST(AnyBoundary, CountersAreSharesOfTheLongestSide) {
+  const BoundaryExtraction result = extract(box(), options_of(16));
+  const ExtractionCounters& counters = result.extraction.measurements.counters;
+  ASSERT_EQ(counters.levels.size(), 4u);  // 1/8, and two levels below the voxels
+  for (std::size_t i = 0; i < counters.levels.size(); ++i) {
+    EXPECT_DOUBLE_EQ(counters.levels[i].cell_size, std::ldexp(0.125, -static_cast<int>(i)));
+  }
+  EXPECT_EQ(counters.levels[1].visited, counters.found + counters.undecided + counters.proved_empty);
+}
+
+TEST(AnyBoundary, SheetsAreFoundAsFromAMesh) {
+  ExtractionOptions options = options_of(24);
+  const BoundaryExtraction result = extract(box(), options);
+  const Result<Sheets> sheets = find_sheets(result.extraction.spheres, result.extraction.grid, options, {});
+  ASSERT_TRUE(sheets);
+  EXPECT_EQ(sheets.value().sheets.size(), 13u);  // of a box with three different sides
+}
+
+TEST(AnyBoundary, GridsMayBeFlatOrOneVoxel) {
+  BoundaryFunctions flat = box();
+  flat.lower[2] = flat.upper[2] = 0.0;
+  const BoundaryExtraction layer = extract(flat, options_of(16));
+  EXPECT_EQ(layer.extraction.grid.size[2], 1u);
+  EXPECT_GT(layer.extraction.spheres.size(), 30u);
+  EXPECT_EQ(extract(box(), options_of(1, 6)).extraction.spheres.size(), 1u);
+}
+
+// The flux through spheres around voxels on the plane z = 0 is that of two half balls: half of 1 on either side.
 TEST(AnyBoundary, FluxIsThatOfTheSource) {
   const BoundaryExtraction result = extract(box(), options_of(16));
   int compared = 0;
@@ -227,7 +301,7 @@ TEST(AnyBoundary, BadArgumentsAreErrors) {
   EXPECT_EQ(message(none, options_of(8)), "`nearest` must be a function");
   BoundaryFunctions empty = box();
   empty.upper = empty.lower;
-  EXPECT_EQ(message(empty, options_of(8)), "`lower` and `upper` must span a finite box");
+  EXPECT_EQ(message(empty, options_of(8)), "the longest side of the box must be 1e-90 to 1e90");
   BoundaryFunctions infinite = box();
   infinite.upper[1] = std::numeric_limits<double>::infinity();
   EXPECT_EQ(message(infinite, options_of(8)), "`lower` and `upper` must span a finite box");
@@ -237,7 +311,8 @@ TEST(AnyBoundary, BadArgumentsAreErrors) {
   EXPECT_EQ(message(far, options_of(8)), "`lower` and `upper` are too far from the origin for a box of this size");
   BoundaryFunctions rough = box();
   rough.error = 0.1;
-  EXPECT_EQ(message(rough, options_of(8)), "`error` must be 0 or more, and no greater than half of `epsilon`");
+  EXPECT_EQ(message(rough, options_of(8)),
+            "`error` must be 0 or more, and at most epsilon (1 - cos `object_angle`) / 2 voxel sides");
   EXPECT_EQ(message(box(), options_of(0)), "`resolution` must be 1 to 4096");
   ExtractionOptions samples = options_of(8);
   samples.thesis.samples[2] = 0;
@@ -246,7 +321,10 @@ TEST(AnyBoundary, BadArgumentsAreErrors) {
   broken.nearest = [](std::span<const Point>, std::span<Point> answers) {
     std::fill(answers.begin(), answers.end(), Point{0, std::numeric_limits<double>::quiet_NaN(), 0});
   };
-  EXPECT_EQ(message(broken, options_of(8)), "`nearest` gave a point that is not finite");
+  const std::string about = message(broken, options_of(8));
+  EXPECT_EQ(about.substr(0, 47), "`nearest` gave a point that is not finite for (");
+  BoundaryFunctions distant = cloud({{-1e9, 0, 0}, {1e9, 0, 0}}, {-1, -1, -1}, {1, 1, 1});
+  EXPECT_NE(message(distant, options_of(8)).find("more than 64 diagonals of the box away"), std::string::npos);
 }
 
 TEST(AnyBoundary, ExceptionsOfTheBoundaryLeaveTheCall) {
@@ -280,21 +358,28 @@ TEST(AnyBoundary, ProgressGrowsToOne) {
   EXPECT_EQ(last, 1);
 }
 
-// Between two points the medial axis is their bisector: the bound is never below the distance to it.
+// Between two points the medial axis is their bisector: the bound is never below the distance to it, whatever answers
+// the error allows.
 TEST(AxisDistance, BoundsTheDistanceToTheBisector) {
   std::mt19937_64 random(9);
   std::uniform_real_distribution<> share(-1, 1);
+  // Farther from `at`, or nearer for a negative shift: what misleads most.
+  const auto moved = [](const Point& p, const Point& at, double shift) {
+    return p + (shift / length(p - at)) * (p - at);
+  };
   int useful = 0;
-  for (int i = 0; i < 10'000; ++i) {
+  for (int i = 0; i < 40'000; ++i) {
     const Point a = {-1, 0, 0}, b = {1, 0, 0};
     const double off = std::pow(10, -6 * std::fabs(share(random)));
-    const Point at = {off, 2 * share(random), 2 * share(random)};
-    const double error = i % 2 == 0 ? 0 : 0.1 * off;
-    const double bound = any_boundary::axis_distance({at, b, a, b}, error);
+    Point at = {off, 0, 0};
+    for (std::size_t k = 1; k < 3; ++k) at[k] = 2 * share(random);
+    const double error = i % 2 == 0 ? 0 : off * std::fabs(share(random));
+    const Point nearest = moved(b, at, error), near_a = moved(a, at, -error), near_b = moved(b, at, -error);
+    const double bound = any_boundary::axis_distance({at, nearest, near_a, near_b}, error);
     ASSERT_GE(bound, off * (1 - 1e-9));
     useful += bound < 20 * off ? 1 : 0;
   }
-  EXPECT_GT(useful, 5000);
+  EXPECT_GT(useful, 10'000);
 }
 
 }  // namespace

@@ -124,22 +124,28 @@ TEST(SpreadTest, DismissesAnglesBeyondThatOfTheMedialPoint) {
   EXPECT_EQ(dismissed, kClouds);
 }
 
-// Below a plane wall, at any inclination: docs/theory.md gives 6.6 sides.
+/// The cell around the origin at a depth below a plane wall.
+bool is_dismissed_below_plane(const SpreadTest& test, const Point& normal, double depth, double object_angle) {
+  const auto foot = [&](const Point& p) { return p - (dot(p, normal) + depth) * normal; };
+  std::array<Point, kSamples> contacts;
+  for (std::size_t s = 0; s < kSamples; ++s) {
+    const auto& [x, y, z] = sample_offsets()[s];
+    contacts[s] = foot({static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)});
+  }
+  const Point centre = {0, 0, 0};
+  return test.dismisses({centre, 1, foot(centre), contacts, 1e-12}, object_angle);
+}
+
+// At any inclination: the depths of docs/theory.md.
 TEST(SpreadTest, DismissesCellsBelowAPlane) {
   RandomPoints random(5);
   const SpreadTest test;
   for (int i = 0; i < 500; ++i) {
     const Point normal = random.direction();
-    const auto foot = [&](const Point& p) { return p - (dot(p, normal) + 6.6) * normal; };
-    std::array<Point, kSamples> contacts;
-    for (std::size_t s = 0; s < kSamples; ++s) {
-      const auto& [x, y, z] = sample_offsets()[s];
-      contacts[s] = foot({static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)});
-    }
-    const Point centre = {0, 0, 0};
-    EXPECT_TRUE(test.dismisses({centre, 1, foot(centre), contacts, 1e-12}, kObjectAngle)) << i;
-    // At a depth of half the diagonal the ball around the cell reaches the wall.
-    EXPECT_FALSE(test.dismisses({centre, 1, -0.86 * normal, contacts, 1e-12}, kObjectAngle)) << i;
+    EXPECT_TRUE(is_dismissed_below_plane(test, normal, 6.1, 0.6)) << i;
+    EXPECT_TRUE(is_dismissed_below_plane(test, normal, 10.8, 0.3)) << i;
+    EXPECT_TRUE(is_dismissed_below_plane(test, normal, 4.1, 1.2)) << i;
+    EXPECT_FALSE(is_dismissed_below_plane(test, normal, 2, 0.6)) << i;
   }
 }
 
