@@ -46,6 +46,13 @@ Vector3d random_point(const Tree& tree, Random& random) {
   return tree.lower() + Vector3d(x, y, z).cwiseProduct(tree.upper() - tree.lower());
 }
 
+/// True for points whose medial sphere counts: on the side of the tree, in its box. Balls inside a bounded solid have
+/// their centres there.
+bool counts(const Tree& tree, const Vector3d& centre) {
+  const bool in_box = (centre.array() >= tree.lower().array()).all() && (centre.array() <= tree.upper().array()).all();
+  return in_box && reference::is_inside(tree, centre);
+}
+
 /// True in front of the nearest face, which is outside of a closed mesh. Other points are tested again in the end.
 bool surely_outside(const Tree& tree, const Vector3d& p, const Closest& nearest) {
   return nearest.feature == Feature::kFace && (p - nearest.point).dot(tree.normal(nearest.triangle)) > 0;
@@ -90,7 +97,7 @@ std::optional<MedialSample> MedialSampler::sample(std::uint64_t index) const {
     if (climbs > 0 && ball->count < 4) {
       --climbs;
     } else if (angle >= least_angle_) {
-      if (!reference::is_inside(tree_, ball->centre)) return std::nullopt;
+      if (!counts(tree_, ball->centre)) return std::nullopt;
       return MedialSample{ball->centre, ball->radius, angle};
     }
   }
@@ -107,12 +114,13 @@ std::optional<MedialSample> MedialSampler::on_the_way_up(std::optional<Ball> bal
   }
   if (salient.empty()) return std::nullopt;
   const MedialSample& sample = salient[which % salient.size()];
-  return reference::is_inside(tree_, sample.centre) ? std::optional(sample) : std::nullopt;
+  return counts(tree_, sample.centre) ? std::optional(sample) : std::nullopt;
 }
 
 std::optional<MedialSampler::Ball> MedialSampler::largest_at(const Closest& contact, const Vector3d& away) const {
   Ball ball;
-  ball.radius = tree_.longest_side();
+  // Outside, a ball with its centre in the box may be as large as the diagonal of the box, below 1.74 longest sides.
+  ball.radius = (tree_.far_number() > 0 ? 2 : 1) * tree_.longest_side();
   ball.triangles[0] = contact.triangle;
   ball.spokes[0] = -away;
   for (int step = 0; step < kMostShrinks; ++step) {

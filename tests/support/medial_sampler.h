@@ -1,6 +1,8 @@
 // Independent samples of the medial surface of a solid, by distances in double precision only, against which the recall
 // of an extraction is measured. They share the closest-point queries with the CPU reference, and nothing else.
 //
+// The solid may be the outside of a mesh, within a box (reference::turned_over()).
+//
 // A random point p of the solid has a nearest boundary point A. The largest ball that touches A and whose interior
 // holds no boundary point has its centre on the ray from A through p and touches the boundary elsewhere: its centre is
 // a medial point. It is found from outside (Ma, Bae and Choi 2012): a ball that holds a boundary point Q in its
