@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -70,14 +71,18 @@ Status measure_both(const std::string& name, Mesh given, const Options& options,
   if (!mesh.ok()) return mesh.error();
   const Result<IndexedMesh> outside = mesh.value().on_side({MeshSide::kOutside, margin});
   if (!outside.ok()) return outside.error();
-  const Result<Measured> in = measure(mesh.value(), options, context);
-  if (!in.ok()) return in.error();
-  const Result<Measured> out = measure(outside.value(), options, context);
-  if (!out.ok()) return out.error();
-  const Measured &a = in.value(), &b = out.value();
-  fmt::print("| {} | {} | {} | {} | {:.2f} | {:.1f} | {} | {} | {} | {:.2f} | {:.1f} | {:.2f} |\n", name, triangles,
-             a.points, a.undecided, a.seconds, a.per_point(), b.points, b.undecided, b.rejected, b.seconds,
-             b.per_point(), a.per_point() > 0 ? b.per_point() / a.per_point() : 0);
+  const Result<IndexedMesh> same_grid = mesh.value().on_side({MeshSide::kInside, margin});
+  if (!same_grid.ok()) return same_grid.error();
+  fmt::print("| {} | {} |", name, triangles);
+  double inside = 0;
+  for (const IndexedMesh* searched : {&mesh.value(), &same_grid.value(), &outside.value()}) {
+    const Result<Measured> found = measure(*searched, options, context);
+    if (!found.ok()) return found.error();
+    const Measured& m = found.value();
+    if (searched == &mesh.value()) inside = m.per_point();
+    fmt::print(" {} | {} | {:.2f} | {:.1f} |", m.points, m.undecided + m.rejected, m.seconds, m.per_point());
+    if (searched == &outside.value()) fmt::print(" {:.2f} |\n", inside > 0 ? m.per_point() / inside : 0);
+  }
   std::fflush(stdout);
   return {};
 }
@@ -86,9 +91,13 @@ Status run(const Options& options) {
   Result<Context> context = Context::create();
   if (!context.ok()) return context.error();
   fmt::print("{}, resolution {}, margin {}\n\n", context.value().device().name, options.resolution, options.margin);
-  fmt::print(
-      "| mesh | triangles | inside: points | undecided | CPU s | us a point | outside: points | undecided | rejected | "
-      "CPU s | us a point | ratio |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+  fmt::print("| mesh | triangles |");
+  for (const char* side : {"inside", "inside, grid of the outside", "outside"}) {
+    fmt::print(" {}: points | undecided | s | us a point |", side);
+  }
+  fmt::print(" outside / inside, a point |\n|");
+  for (int column = 0; column < 15; ++column) fmt::print("---|");
+  fmt::print("\n");
   for (const std::string& file : options.meshes) {
     Result<Mesh> mesh = read_mesh(file);
     if (!mesh.ok()) return mesh.error();

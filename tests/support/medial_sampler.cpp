@@ -41,9 +41,13 @@ class Random {
   std::uint64_t state_;
 };
 
-Vector3d random_point(const Tree& tree, Random& random) {
+/// Outside, seven of eight points are in the box of the mesh, where all spokes begin but those that leave it at once:
+/// elsewhere most points lie on no way to a medial sphere in the box of the search.
+Vector3d random_point(const Tree& tree, const Eigen::AlignedBox3d& box_of_mesh, Random& random) {
   const double x = random.unit(), y = random.unit(), z = random.unit();
-  return tree.lower() + Vector3d(x, y, z).cwiseProduct(tree.upper() - tree.lower());
+  const bool is_near = tree.far_number() > 0 && random.next() % 8 != 0;
+  const Vector3d lower = is_near ? box_of_mesh.min() : tree.lower(), upper = is_near ? box_of_mesh.max() : tree.upper();
+  return lower + Vector3d(x, y, z).cwiseProduct(upper - lower);
 }
 
 /// True for points whose medial sphere counts: on the side of the tree, in its box. Balls inside a bounded solid have
@@ -79,11 +83,15 @@ MedialSampler::MedialSampler(const Tree& tree, double least_angle, std::uint64_t
       least_angle_(least_angle),
       tolerance_(64 * tree.rounding()),
       seed_(seed),
-      past_corners_(past_corners) {}
+      past_corners_(past_corners) {
+  for (int t = 0; t < tree.triangle_count(); ++t) {
+    for (int k = 0; k < 3; ++k) box_of_mesh_.extend(tree.corner(t, k));
+  }
+}
 
 std::optional<MedialSample> MedialSampler::sample(std::uint64_t index) const {
   Random random(seed_, index);
-  const Vector3d p = random_point(tree_, random);
+  const Vector3d p = random_point(tree_, box_of_mesh_, random);
   const Closest nearest = tree_.closest(p);
   // Close to the boundary the direction away from it is inaccurate.
   if (nearest.distance < 1e-6 * tree_.longest_side() || surely_outside(tree_, p, nearest)) return std::nullopt;

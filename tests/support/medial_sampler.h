@@ -20,6 +20,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -64,6 +65,7 @@ class MedialSampler {
   double least_angle_, tolerance_;
   std::uint64_t seed_;
   bool past_corners_;
+  Eigen::AlignedBox3d box_of_mesh_;
 };
 
 struct SampleRequest {
