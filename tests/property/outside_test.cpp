@@ -47,6 +47,28 @@ std::size_t count_lost(const std::vector<MedialSample>& samples, const Extractio
   }));
 }
 
+/// Around [0, 1] x [0, 0.9], 0.3 high, each of four by three squares, so that some triangles have no open edge.
+Mesh low_walls() {
+  constexpr std::uint32_t kAcross = 4, kUp = 3, kAround = 4 * kAcross;
+  const std::array<Point, 5> corners = {{{0, 0, 0}, {1, 0, 0}, {1, 0.9, 0}, {0, 0.9, 0}, {0, 0, 0}}};
+  Mesh mesh;
+  for (std::uint32_t row = 0; row <= kUp; ++row) {
+    for (std::uint32_t i = 0; i < kAround; ++i) {
+      const Point &a = corners[i / kAcross], &b = corners[i / kAcross + 1];
+      const double share = static_cast<double>(i % kAcross) / kAcross;
+      mesh.vertices.push_back({a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]), 0.1 * row});
+    }
+  }
+  for (std::uint32_t row = 0; row < kUp; ++row) {
+    for (std::uint32_t i = 0; i < kAround; ++i) {
+      const std::uint32_t a = kAround * row + i, b = kAround * row + (i + 1) % kAround;
+      mesh.triangles.push_back({a, b, b + kAround});
+      mesh.triangles.push_back({a, b + kAround, a + kAround});
+    }
+  }
+  return mesh;
+}
+
 class OutsideOf : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(OutsideOf, LosesNoSalientSample) {
@@ -73,6 +95,23 @@ INSTANTIATE_TEST_SUITE_P(Arrangements, OutsideOf, testing::Range<std::size_t>(0,
   std::ranges::replace(name, '-', '_');
   return name;
 });
+
+// Walls without floor and roof, so low that the outside reaches between them: it lies behind all of them.
+TEST(OutsideOfAnOpenMesh, ReachesBetweenLowWalls) {
+  MEDIAL_VK_SKIP_WITHOUT_DEVICE();
+  Mesh walls = low_walls();
+  test::rotate(walls, {0.3, -0.5, 0.8}, 0.7);
+  const PreparedMesh mesh = test::prepare(walls);
+  ASSERT_GT(mesh.report.trusted_triangles, 0u);
+  const IndexedMesh outside = test::indexed(mesh).on_side({}).value();
+  ExtractionOptions options;
+  options.resolution = 40;
+  const std::vector<MedialSample> samples = samples_outside(mesh, outside.margin(), options.object_angle, 300);
+  ASSERT_GT(samples.size(), 200u);
+  const CertifiedExtraction found = test::extract_on_device(test::quick_device(), outside, options);
+  SCOPED_TRACE(test::describe(found));
+  EXPECT_EQ(count_lost(samples, found.extraction), 0u);
+}
 
 // Outside is where the winding number is at most 1/2, and no normal is trusted.
 TEST(OutsideOfAnOpenMesh, LosesNoSalientSample) {
