@@ -21,6 +21,7 @@
 #include "recall_table.h"
 #include "reference_bridge/reference_bridge.h"
 #include "reference_bridge/reference_extractor.h"
+#include "support/solids/arrangements.h"
 #include "support/solids/solid_catalogue.h"
 
 namespace {
@@ -30,7 +31,9 @@ using bench::RecallRow;
 using test::MedialSample;
 
 struct Options {
-  std::vector<std::string> meshes, solids;
+  std::vector<std::string> meshes, solids, arrangements;
+  bool outside = false;
+  double margin = 0.5;
   std::vector<std::string> modes = {"certified"};
   std::vector<std::uint32_t> resolutions = {40, 80, 160}, thesis_resolutions;
   std::vector<double> angles = {0.3, 0.6, 0.9};
@@ -43,6 +46,9 @@ struct Options {
 void declare(CLI::App& app, Options& o) {
   app.add_option("mesh", o.meshes, "OBJ, PLY, STL or OFF");
   app.add_option("--solid", o.solids, "analytic solids by name, or all");
+  app.add_option("--arrangement", o.arrangements, "arrangements of several parts by name, or all");
+  app.add_flag("--outside", o.outside, "the outside of every mesh, in mode certified");
+  app.add_option("--margin", o.margin, "of the outside, as a share of the longest side")->check(CLI::Range(0.01, 10.0));
   app.add_option("--mode", o.modes, "certified, thesis")->check(CLI::IsMember({"certified", "thesis"}));
   app.add_option("--resolutions", o.resolutions, "voxels along the longest side")->check(CLI::Range(1, 4096));
   app.add_option("--thesis-resolutions", o.thesis_resolutions, "the same for mode thesis")->check(CLI::Range(1, 4096));
@@ -77,6 +83,15 @@ Result<std::vector<Subject>> load(const Options& options) {
       loaded.push_back(prepare_subject(solid.name, solid.make(), solid.salient_at_a_point));
     }
     if (loaded.size() == before) return Error{ErrorCode::kUsage, "there is no solid called " + wanted};
+  }
+  for (const std::string& wanted : options.arrangements) {
+    const std::size_t before = loaded.size();
+    for (const test::Arrangement& arrangement : test::arrangements()) {
+      if (wanted == "all" || wanted == arrangement.name) {
+        loaded.push_back(prepare_subject(arrangement.name, arrangement.make()));
+      }
+    }
+    if (loaded.size() == before) return Error{ErrorCode::kUsage, "there is no arrangement called " + wanted};
   }
   for (const std::string& file : options.meshes) {
     loaded.push_back(prepare_subject(std::filesystem::path(file).stem().string(), read_mesh(file)));
@@ -113,9 +128,12 @@ std::vector<MedialSample> draw_samples(const Subject& subject, const Options& op
   for (const double angle : options.angles) request.angles.push_back(angle + bench::kClearAngle);
   request.wanted = static_cast<std::size_t>(1.03 * static_cast<double>(options.samples) / (axis * axis * axis)) + 50;
   request.past_corners = subject.salient_at_a_point;
+  if (options.outside) request.most_tries = 1000;  // most points lie on no way to a medial sphere in the box
   request.seed = options.seed;
   request.threads = options.threads;
-  const reference::Tree tree(to_reference(subject.mesh));
+  const double margin = options.margin * subject.mesh.report.longest_side();
+  const reference::Mesh mesh = to_reference(subject.mesh);
+  const reference::Tree tree(options.outside ? reference::turned_over(mesh, margin) : mesh);
   std::vector<MedialSample> samples = draw_medial_samples(tree, request);
   const double seconds = seconds_since(start);
   fmt::print(stderr, "{}: {} samples, {} of them apart, in {:.1f} s, {:.0f} a second\n", subject.name, samples.size(),
@@ -154,7 +172,11 @@ Status measure(const Subject& subject, const Options& options, Context* context,
   const std::vector<MedialSample> samples = draw_samples(subject, options);
   const Result<IndexedMesh> made = IndexedMesh::build(PreparedMesh(subject.mesh), {.threads = options.threads});
   if (!made.ok()) return made.error();
-  const IndexedMesh& indexed = made.value();
+  const double margin = options.margin * subject.mesh.report.longest_side();
+  const Result<IndexedMesh> searched =
+      options.outside ? made.value().on_side({MeshSide::kOutside, margin, options.threads}) : made;
+  if (!searched.ok()) return searched.error();
+  const IndexedMesh& indexed = searched.value();
   for (const std::string& mode : options.modes) {
     const bool thesis = mode == "thesis";
     for (const std::uint32_t resolution :
@@ -188,7 +210,9 @@ Status write(const std::string& file, const std::string& text) {
 Status run(const Options& options) {
   Result<std::vector<Subject>> subjects = load(options);
   if (!subjects.ok()) return subjects.error();
-  if (subjects.value().empty()) return Error{ErrorCode::kUsage, "name a mesh, or a solid with --solid"};
+  if (subjects.value().empty()) {
+    return Error{ErrorCode::kUsage, "name a mesh, a solid with --solid or parts with --arrangement"};
+  }
   std::optional<Context> context;
   if (options.backend == "vulkan") {
     Result<Context> made = Context::create();

@@ -25,7 +25,7 @@ bool is_inside_by_tree(vec3 point) {
   float tolerance = 0.3;  // decides most points at once
   Winding w;
   for (uint attempt = 0; attempt < 3u; ++attempt) {
-    w = winding_number(point, tolerance);
+    w = rough_winding_number(point, tolerance);
     if (attempt == 2u || abs(w.number - 0.5) > w.bound + kSumRounding) break;
     tolerance *= 0.1;
   }

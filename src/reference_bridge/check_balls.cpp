@@ -30,7 +30,7 @@ std::vector<reference::UnionBall> to_reference(std::span<const Ball> balls) {
 
 }  // namespace
 
-CheckReport check_medial_spheres(const PreparedMesh& mesh, const VoxelGrid& grid,
+CheckReport check_medial_spheres(const IndexedMesh& mesh, const VoxelGrid& grid,
                                  const std::vector<MedialSphere>& spheres, double epsilon, double object_angle,
                                  double radius) {
   return from_reference(reference::check(medial_vk::to_reference(mesh), medial_vk::to_reference(grid, spheres), epsilon,

@@ -6,14 +6,15 @@
 
 #include "check_reports/check_report.h"
 #include "medial_vk/ball.h"
+#include "medial_vk/indexed_mesh.h"
 #include "medial_vk/medial_spheres.h"
 #include "medial_vk/mesh.h"
 
 namespace medial_vk {
 
-/// Tests every medial sphere against the guarantees of the file. `epsilon` and `radius` are lengths, with 0 for no
-/// threshold of the radius; the object angle is in radians.
-CheckReport check_medial_spheres(const PreparedMesh& mesh, const VoxelGrid& grid,
+/// Tests every medial sphere against the guarantees of the file, on the side of the mesh. `epsilon` and `radius` are
+/// lengths, with 0 for no threshold of the radius; the object angle is in radians.
+CheckReport check_medial_spheres(const IndexedMesh& mesh, const VoxelGrid& grid,
                                  const std::vector<MedialSphere>& spheres, double epsilon, double object_angle,
                                  double radius);
 

@@ -70,6 +70,13 @@ reference::Mesh to_reference(const PreparedMesh& mesh) {
   return out;
 }
 
+reference::Mesh to_reference(const IndexedMesh& mesh) {
+  reference::Mesh out = to_reference(mesh.prepared());
+  out.unbounded = mesh.side() == MeshSide::kOutside;
+  out.room = mesh.margin();
+  return out;
+}
+
 reference::Options to_reference(const ExtractionOptions& options) {
   reference::Options out;
   out.certified = options.mode == Mode::kCertified;

@@ -3,6 +3,7 @@
 
 #include "cpu_reference/extract.h"
 #include "cpu_reference/mesh.h"
+#include "medial_vk/indexed_mesh.h"
 #include "medial_vk/medial_spheres.h"
 #include "medial_vk/mesh.h"
 
@@ -10,6 +11,8 @@ namespace medial_vk {
 
 inline Eigen::Vector3d to_eigen(const Point& p) { return {p[0], p[1], p[2]}; }
 reference::Mesh to_reference(const PreparedMesh& mesh);
+/// With the box in which medial points are sought, on one side.
+reference::Mesh to_reference(const IndexedMesh& mesh);
 reference::Options to_reference(const ExtractionOptions& options);
 /// Copies grid and spheres only, the input of `--check`.
 reference::Result to_reference(const VoxelGrid& grid, const std::vector<MedialSphere>& spheres);

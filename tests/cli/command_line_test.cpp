@@ -154,7 +154,7 @@ TEST_F(CommandLine, SameInputSameBytesInEveryForm) {
   EXPECT_TRUE(encode_ply(text.header, text.spheres, false) == encode_ply(binary.header, binary.spheres, false));
 
   ASSERT_EQ(run_cpu({"part.obj", "-o", "table.csv"}).exit_code, 0);
-  EXPECT_TRUE(read_file(path("table.csv")) == encode_csv(binary.spheres));
+  EXPECT_TRUE(read_file(path("table.csv")) == encode_csv(binary.header, binary.spheres));
 }
 
 TEST_F(CommandLine, StandardInputHasItsOwnDefaultName) {

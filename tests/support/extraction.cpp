@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "cpu_reference/certificate.h"
+#include "cpu_reference/queries.h"
 #include "medial_vk/prepare.h"
 #include "reference_bridge/reference_bridge.h"
 #include "support/indexed.h"
@@ -37,9 +38,13 @@ Context make_context(bool validation) {
 }
 
 CertifiedExtraction extract_on_device(Context& context, const PreparedMesh& mesh, const ExtractionOptions& options) {
+  return extract_on_device(context, indexed(mesh), options);
+}
+
+CertifiedExtraction extract_on_device(Context& context, const IndexedMesh& mesh, const ExtractionOptions& options) {
   ExtractionOptions on_one_thread = options;
   on_one_thread.threads = 1;
-  CertifiedExtraction result = value_or_throw(extract_and_certify(indexed(mesh), on_one_thread, context));
+  CertifiedExtraction result = value_or_throw(extract_and_certify(mesh, on_one_thread, context));
   check(result.extraction);
   return result;
 }
@@ -50,10 +55,16 @@ reference::Result extract_with_reference(const PreparedMesh& mesh, const Extract
 
 testing::AssertionResult passes_certificate(const PreparedMesh& mesh, const Extraction& extraction,
                                             const ExtractionOptions& options) {
+  return passes_certificate(medial_vk::to_reference(mesh), extraction, options);
+}
+
+testing::AssertionResult passes_certificate(const reference::Mesh& mesh, const Extraction& extraction,
+                                            const ExtractionOptions& options) {
   const VoxelGrid& grid = extraction.grid;
-  const reference::Certificate certificate = reference::check(
-      medial_vk::to_reference(mesh), medial_vk::to_reference(grid, extraction.spheres),
-      options.epsilon * grid.voxel_size, options.object_angle, options.radius * mesh.report.longest_side());
+  const double longest_side = reference::Tree(mesh).longest_side();
+  const reference::Certificate certificate =
+      reference::check(mesh, medial_vk::to_reference(grid, extraction.spheres), options.epsilon * grid.voxel_size,
+                       options.object_angle, options.radius * longest_side);
   if (certificate.passed()) return testing::AssertionSuccess();
   testing::AssertionResult failure = testing::AssertionFailure();
   for (const reference::CertificateLine& line : certificate.lines) {

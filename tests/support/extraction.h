@@ -12,6 +12,7 @@
 #include "cpu_reference/extract.h"
 #include "medial_vk/certify.h"
 #include "medial_vk/context.h"
+#include "medial_vk/indexed_mesh.h"
 #include "medial_vk/mesh.h"
 #include "support/eigen_points.h"
 
@@ -27,12 +28,19 @@ Context make_context(bool validation = false);
 /// voxel or counts contradict each other.
 CertifiedExtraction extract_on_device(Context& context, const PreparedMesh& mesh, const ExtractionOptions& options);
 
+/// The same on the side, and in the box, of the mesh.
+CertifiedExtraction extract_on_device(Context& context, const IndexedMesh& mesh, const ExtractionOptions& options);
+
 /// The independent reference with the same options: double precision, certified inside.
 reference::Result extract_with_reference(const PreparedMesh& mesh, const ExtractionOptions& options);
 
 /// Whether every sphere passes every condition of the certificate, recomputed by the reference. The message names the
 /// conditions that fail and the first sphere of each.
 testing::AssertionResult passes_certificate(const PreparedMesh& mesh, const Extraction& extraction,
+                                            const ExtractionOptions& options);
+
+/// The same for spheres of the reference's mesh, which may be the outside of another.
+testing::AssertionResult passes_certificate(const reference::Mesh& mesh, const Extraction& extraction,
                                             const ExtractionOptions& options);
 
 /// Counters and times in one line, for the messages of failed tests.

@@ -41,9 +41,20 @@ class Random {
   std::uint64_t state_;
 };
 
-Vector3d random_point(const Tree& tree, Random& random) {
+/// Outside, seven of eight points are in the box of the mesh, where all spokes begin but those that leave it at once:
+/// elsewhere most points lie on no way to a medial sphere in the box of the search.
+Vector3d random_point(const Tree& tree, const Eigen::AlignedBox3d& box_of_mesh, Random& random) {
   const double x = random.unit(), y = random.unit(), z = random.unit();
-  return tree.lower() + Vector3d(x, y, z).cwiseProduct(tree.upper() - tree.lower());
+  const bool is_near = tree.far_number() > 0 && random.next() % 8 != 0;
+  const Vector3d lower = is_near ? box_of_mesh.min() : tree.lower(), upper = is_near ? box_of_mesh.max() : tree.upper();
+  return lower + Vector3d(x, y, z).cwiseProduct(upper - lower);
+}
+
+/// True for points whose medial sphere counts: on the side of the tree, in its box. Balls inside a bounded solid have
+/// their centres there.
+bool counts(const Tree& tree, const Vector3d& centre) {
+  const bool in_box = (centre.array() >= tree.lower().array()).all() && (centre.array() <= tree.upper().array()).all();
+  return in_box && reference::is_inside(tree, centre);
 }
 
 /// True in front of the nearest face, which is outside of a closed mesh. Other points are tested again in the end.
@@ -72,11 +83,15 @@ MedialSampler::MedialSampler(const Tree& tree, double least_angle, std::uint64_t
       least_angle_(least_angle),
       tolerance_(64 * tree.rounding()),
       seed_(seed),
-      past_corners_(past_corners) {}
+      past_corners_(past_corners) {
+  for (int t = 0; t < tree.triangle_count(); ++t) {
+    for (int k = 0; k < 3; ++k) box_of_mesh_.extend(tree.corner(t, k));
+  }
+}
 
 std::optional<MedialSample> MedialSampler::sample(std::uint64_t index) const {
   Random random(seed_, index);
-  const Vector3d p = random_point(tree_, random);
+  const Vector3d p = random_point(tree_, box_of_mesh_, random);
   const Closest nearest = tree_.closest(p);
   // Close to the boundary the direction away from it is inaccurate.
   if (nearest.distance < 1e-6 * tree_.longest_side() || surely_outside(tree_, p, nearest)) return std::nullopt;
@@ -90,7 +105,7 @@ std::optional<MedialSample> MedialSampler::sample(std::uint64_t index) const {
     if (climbs > 0 && ball->count < 4) {
       --climbs;
     } else if (angle >= least_angle_) {
-      if (!reference::is_inside(tree_, ball->centre)) return std::nullopt;
+      if (!counts(tree_, ball->centre)) return std::nullopt;
       return MedialSample{ball->centre, ball->radius, angle};
     }
   }
@@ -107,12 +122,13 @@ std::optional<MedialSample> MedialSampler::on_the_way_up(std::optional<Ball> bal
   }
   if (salient.empty()) return std::nullopt;
   const MedialSample& sample = salient[which % salient.size()];
-  return reference::is_inside(tree_, sample.centre) ? std::optional(sample) : std::nullopt;
+  return counts(tree_, sample.centre) ? std::optional(sample) : std::nullopt;
 }
 
 std::optional<MedialSampler::Ball> MedialSampler::largest_at(const Closest& contact, const Vector3d& away) const {
   Ball ball;
-  ball.radius = tree_.longest_side();
+  // Outside, a ball with its centre in the box may be as large as the diagonal of the box, below 1.74 longest sides.
+  ball.radius = (tree_.far_number() > 0 ? 2 : 1) * tree_.longest_side();
   ball.triangles[0] = contact.triangle;
   ball.spokes[0] = -away;
   for (int step = 0; step < kMostShrinks; ++step) {

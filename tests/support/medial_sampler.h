@@ -1,6 +1,8 @@
 // Independent samples of the medial surface of a solid, by distances in double precision only, against which the recall
 // of an extraction is measured. They share the closest-point queries with the CPU reference, and nothing else.
 //
+// The solid may be the outside of a mesh, within a box (reference::turned_over()).
+//
 // A random point p of the solid has a nearest boundary point A. The largest ball that touches A and whose interior
 // holds no boundary point has its centre on the ray from A through p and touches the boundary elsewhere: its centre is
 // a medial point. It is found from outside (Ma, Bae and Choi 2012): a ball that holds a boundary point Q in its
@@ -18,6 +20,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -62,6 +65,7 @@ class MedialSampler {
   double least_angle_, tolerance_;
   std::uint64_t seed_;
   bool past_corners_;
+  Eigen::AlignedBox3d box_of_mesh_;
 };
 
 struct SampleRequest {

@@ -12,6 +12,11 @@ struct Mesh {
   std::vector<Eigen::Vector3i> triangles;  // counter-clockwise from outside
   std::vector<std::uint8_t> trusted;       // one per triangle: its outward normal may be trusted (Lemma B); empty: no
   bool closed = false;                     // inside and outside are defined for whole cells
+  bool unbounded = false;                  // the solid is all of space but what the mesh encloses: its outside
+  double room = 0;  // the box in which medial points are sought reaches this far beyond the triangles
 };
+
+/// The outside of a mesh as a solid, with its triangles turned over, within a box.
+Mesh turned_over(Mesh mesh, double room);
 
 }  // namespace medial_vk::reference

@@ -58,12 +58,16 @@ class Tree {
   /// Unit outward normal, zero if the triangle has no area.
   const Eigen::Vector3d& normal(int triangle) const { return normals_[triangle]; }
 
-  const Eigen::Vector3d& lower() const { return nodes_[0].lower; }
-  const Eigen::Vector3d& upper() const { return nodes_[0].upper; }
+  /// Of the box in which medial points are sought (Mesh::room).
+  const Eigen::Vector3d& lower() const { return lower_; }
+  const Eigen::Vector3d& upper() const { return upper_; }
   double longest_side() const { return (upper() - lower()).maxCoeff(); }
 
   /// A bound on the rounding error of any distance computed by this class, derived in tree.cpp.
   double rounding() const { return rounding_; }
+
+  /// The winding number far away.
+  double far_number() const { return far_number_; }
 
  private:
   friend double winding_number(const Tree& tree, const Eigen::Vector3d& p, double tolerance);
@@ -89,12 +93,14 @@ class Tree {
   std::vector<double> areas_;
   std::vector<int> order_;
   std::vector<Node> nodes_;
-  double rounding_ = 0;
+  Eigen::Vector3d lower_, upper_;
+  double rounding_ = 0, far_number_ = 0;
 };
 
 /// The generalised winding number (Jacobson et al. 2013), exact: the sum of all solid angles over 4 pi. Up to rounding:
 /// the sign of the angle of a triangle of the area A is noise if p is nearer to it than some 2^-52 L^3 / A, where L is
-/// the distance from its corners. Beside a sliver that may be far more than a rounding of the coordinates.
+/// the distance from its corners. Beside a sliver that may be far more than a rounding of the coordinates. Of an
+/// unbounded solid, whose triangles are turned over, it is greater by one.
 double winding_number(const Tree& tree, const Eigen::Vector3d& p);
 
 /// The winding number within `tolerance`: far nodes contribute by their first two moments (Barill et al. 2018), and a

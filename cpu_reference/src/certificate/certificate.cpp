@@ -63,7 +63,14 @@ class Condition {
 class Checker {
  public:
   Checker(const Mesh& mesh, const Result& result, double epsilon, double object_angle, double radius)
-      : tree_(mesh), result_(result), epsilon_(epsilon), object_angle_(object_angle), radius_(radius) {}
+      : tree_(mesh),
+        result_(result),
+        epsilon_(epsilon),
+        object_angle_(object_angle),
+        radius_(radius),
+        inside_(mesh.unbounded ? "centre outside (winding number at most 1/2)"
+                               : "centre inside (winding number at least 1/2)",
+                "of 1") {}
 
   void ball(std::size_t i) {
     const Sphere& s = result_.spheres[i];
@@ -144,7 +151,7 @@ class Checker {
   const double epsilon_, object_angle_, radius_;
   std::set<std::tuple<double, double, double>> taken_;
   Condition finite_{"finite numbers, positive radius", "of 1"};
-  Condition inside_{"centre inside (winding number at least 1/2)", "of 1"};
+  Condition inside_;
   Condition below_{"radius <= exact distance", "length"};
   Condition above_{"radius >= exact distance - 2e-6 longest side", "length"};
   Condition grows_{"grown by epsilon it meets the boundary elsewhere (Lemma 2.3)", "length"};

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "cpu_reference/queries.h"
 
@@ -22,7 +23,15 @@ double squared_distance_to_box(const Vector3d& p, const Vector3d& lower, const V
 
 }  // namespace
 
-Tree::Tree(const Mesh& mesh) {
+Mesh turned_over(Mesh mesh, double room) {
+  for (Eigen::Vector3i& t : mesh.triangles) std::swap(t[1], t[2]);
+  mesh.unbounded = !mesh.unbounded;
+  if (!mesh.closed) mesh.trusted.clear();  // points outside lie on both sides of them
+  mesh.room = room;
+  return mesh;
+}
+
+Tree::Tree(const Mesh& mesh) : far_number_(mesh.unbounded ? 1 : 0) {
   const std::size_t n = mesh.triangles.size();
   corners_.reserve(n);
   std::vector<Vector3d> centroids;
@@ -43,6 +52,8 @@ Tree::Tree(const Mesh& mesh) {
   // A computed nearest point is a corner plus two products, each coordinate off by at most 4u times the largest
   // coordinate or edge (u = 2^-53, edge <= 2 max); subtraction, squares and root add 4u of the distance. In space
   // that is below sqrt(3) * (8u + 8u) * max < 32 u max; the tangential error of the weights counts squared only.
+  lower_ = nodes_[0].lower - Vector3d::Constant(mesh.room);
+  upper_ = nodes_[0].upper + Vector3d::Constant(mesh.room);
   const double largest = std::max(lower().cwiseAbs().maxCoeff(), upper().cwiseAbs().maxCoeff());
   rounding_ = 32 * 0x1p-53 * largest;
 }

@@ -48,7 +48,7 @@ double winding_number(const Tree& tree, const Vector3d& p) {
   for (int t = 0; t < tree.triangle_count(); ++t) {
     sum += solid_angle(p, tree.corner(t, 0), tree.corner(t, 1), tree.corner(t, 2));
   }
-  return sum / (4 * std::numbers::pi);
+  return tree.far_number() + sum / (4 * std::numbers::pi);
 }
 
 // w(p) is the integral of f(x) . n / 4 pi with f(x) = (x - p) / |x - p|^3. Around a node's centre, at distance d, f is
@@ -90,7 +90,7 @@ double winding_number(const Tree& tree, const Vector3d& p, double tolerance) {
   while (opening > 1e-3) {
     double error;
     const double sum = tree.winding_number_by_moments(p, opening, error);
-    if (error <= tolerance) return sum;
+    if (error <= tolerance) return tree.far_number() + sum;
     opening *= 0.6;
   }
   return winding_number(tree, p);

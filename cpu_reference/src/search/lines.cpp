@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace medial_vk::reference {
 namespace {
@@ -65,7 +66,7 @@ Vector3d step_to_tie(const Tree& tree, const Box& box, double nearest_distance, 
   const std::size_t stride = 1 + contacts.size() / kTieContacts;
   Vector3d x = Vector3d::Zero();
   for (int step = 0; step < kTieSteps; ++step) {
-    double weights = 0, distances = 0, least = tree.longest_side();
+    double weights = 0, distances = 0, least = std::numeric_limits<double>::infinity();
     Vector3d directions = Vector3d::Zero(), mixed = Vector3d::Zero();
     Matrix3d squares = Matrix3d::Zero();
     for (std::size_t i = 0; i < contacts.size(); i += stride) {
@@ -94,7 +95,7 @@ Vector3d step_to_tie(const Tree& tree, const Box& box, double nearest_distance, 
 Vector3d widest_turn(const Tree& tree, const Vector3d& point, double epsilon, std::span<const Contact> contacts) {
   const std::size_t stride = 1 + contacts.size() / kTieContacts;
   std::vector<Vector3d> spokes;
-  double least = tree.longest_side();
+  double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < contacts.size(); i += stride) {
     spokes.emplace_back(tree.closest_on(contacts[i].triangle, point).point - point);
     least = std::min(least, spokes.back().norm());

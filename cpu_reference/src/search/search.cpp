@@ -17,6 +17,9 @@ constexpr int kDirectDepth = 2;
 // Levels below the voxel at which cells that meet the boundary are given up if normals are not trusted: a point in them
 // has a radius below sqrt(3) / 2^5 of the voxel side.
 constexpr int kLevelsAlongBoundary = 5;
+// Closer to the boundary than this many rounding errors, directions are dominated by rounding: beside a reflex vertex,
+// such as a corner of a box seen from outside, points would seem to have several closest points.
+constexpr double kLeastDistance = 8;
 
 }  // namespace
 
@@ -199,7 +202,7 @@ bool VoxelSearch::try_segment(const Segment& segment, const ContactList& list, d
 bool VoxelSearch::accept(const End& here, const End& there, const ContactList& list, Side where, Sphere& sphere) {
   const double angle = half_angle(here.gradient, there.gradient);
   const double distance = here.nearest.distance, radius = safe_radius(tree_, distance);
-  if (radius <= 0 || angle < thresholds_.angle_at(distance)) return false;
+  if (distance < kLeastDistance * tree_.rounding() || angle < thresholds_.angle_at(distance)) return false;
   if ((here.point - there.point).norm() > thresholds_.epsilon || grid_.voxel_of(here.point) != voxel_) return false;
   const auto distance_at = [&](const Vector3d& p) { return look(p, list).nearest.distance; };
   if (!grows_into_boundary(tree_, here.point, distance, here.gradient, thresholds_.epsilon, distance_at)) return false;

@@ -22,6 +22,15 @@ struct MoveOptions {
   unsigned threads = 0;  ///< Of the host, 0: one per core. The result does not depend on it.
 };
 
+/// Where medial points are sought: on one side of the boundary, within a box.
+struct SideOptions {
+  MeshSide side = MeshSide::kOutside;
+  /// In the units of the mesh: the box reaches this far beyond the bounding box of the mesh on all sides, at most ten
+  /// times its longest side. 0: half of the longest side.
+  double margin = 0;
+  unsigned threads = 0;  ///< Of the host, 0: one per core. The result does not depend on it.
+};
+
 /// A prepared mesh, the tree over its triangles, and the links between triangles at edges and vertices. It is built
 /// once, on the host and without a device, and is the input of every step. Copies share their data; move_vertices() on
 /// one copy does not change the others.
@@ -34,6 +43,23 @@ class IndexedMesh {
   /// are copied, the caller is responsible for the flags, and the report holds only the counts and the box. The same
   /// errors.
   static Result<IndexedMesh> build(const MeshView& mesh, const IndexOptions& options = {});
+
+  /// The same boundary for the search on one side of it, within a box around it. Of the outside, the triangles are
+  /// turned over: the solid of the result is all of space but what the mesh encloses, and its cavities belong to it.
+  /// Of an open mesh it is where the winding number is at most 1/2, and no normal is trusted: triangles lose the flag
+  /// kTrustedNormal. The box bounds the centres of medial spheres only: it is no wall, and spheres may reach beyond it.
+  /// The vertices and the order of the triangles stay as they are, and so does the report, which is that of the mesh.
+  /// Extractions, certify_spheres(), analyse(), jobs and queries of triangles take the result; calls that require a
+  /// bounded solid, such as fits of spheres, give the error kUsage for the outside. Precondition: this is not the
+  /// outside itself (the error kUsage). Errors: kUsage (a margin out of range), kOutOfMemory.
+  Result<IndexedMesh> on_side(const SideOptions& options) const;
+  /// The side on which an extraction seeks medial points: kInside unless on_side() has chosen the other.
+  MeshSide side() const;
+  /// The corners of the box in which they lie: the bounding box, or that of on_side().
+  Point region_lower() const;
+  Point region_upper() const;
+  /// The amount by which that box extends beyond the bounding box.
+  double margin() const;
 
   // A move is a copy, so that no object is ever empty.
   IndexedMesh(const IndexedMesh&) = default;
@@ -48,12 +74,13 @@ class IndexedMesh {
   bool is_same(const IndexedMesh& other) const { return impl_ == other.impl_; }
   /// The tree over the triangles, in the units of the mesh.
   const Bvh& bvh() const;
-  /// Longest side of the bounding box: the unit of every fraction in ExtractionOptions.
+  /// Longest side of the bounding box, or of the box of on_side(): the unit of every fraction in ExtractionOptions.
   double longest_side() const;
 
   /// Follows vertices that have moved; their number is unchanged. The tree is refitted: results are as exact as those
   /// of a new tree, and nearly as fast while neighbours stay neighbours. Errors: kInvalidMesh (another number of
-  /// vertices or flags, a coordinate that is not finite: the mesh is unchanged), kOutOfMemory (likewise).
+  /// vertices or flags, a coordinate that is not finite: the mesh is unchanged), kOutOfMemory (likewise). The box of
+  /// on_side() follows the bounding box.
   Status move_vertices(std::span<const Point> vertices, const MoveOptions& options = {});
 
  private:

@@ -12,7 +12,7 @@
 namespace medial_vk {
 
 enum class Mode : std::uint32_t {
-  kThesis,     ///< Sections 2.3 to 2.4 as published (with the corrected sign of 2.4.2).
+  kThesis,     ///< Sections 2.3 to 2.4 as published (with the corrected sign of 2.4.2); inside only.
   kCertified,  ///< Proved dismissal, inherited contacts, aimed search, subdivision (docs/theory.md).
 };
 
@@ -27,9 +27,10 @@ struct ThesisOptions {
 /// Options of an extraction. Lengths are fractions, so that they do not depend on the units of the mesh.
 struct ExtractionOptions {
   Mode mode = Mode::kCertified;
-  std::uint32_t resolution = 160;  ///< Voxels along the longest side of the bounding box, 1 to 4096.
-  double object_angle = 0.6;       ///< Threshold theta in radians, in (0, pi/2).
-  double radius = 0.0;             ///< Radius threshold as a fraction of the longest side, in [0, 1); 0: off.
+  /// Voxels along the longest side of the bounding box, or of the box of IndexedMesh::on_side(), 1 to 4096.
+  std::uint32_t resolution = 160;
+  double object_angle = 0.6;  ///< Threshold theta in radians, in (0, pi/2).
+  double radius = 0.0;        ///< Radius threshold as a fraction of the longest side, in [0, 1); 0: off.
   /// Mode certified, with a radius threshold: the least object angle of a point whose radius reaches the threshold, in
   /// radians, in (0, pi/2). A value above object_angle has the effect of object_angle. Spokes turn by less at the
   /// creases between the facets of a smooth solid, and by more across medial sheets.
@@ -90,6 +91,7 @@ struct UndecidedVoxel {
 
 struct Extraction {
   VoxelGrid grid;
+  MeshSide side = MeshSide::kInside;      ///< That of the mesh (IndexedMesh::on_side()).
   std::vector<MedialSphere> spheres;      ///< In voxel order: z slowest, then y, then x.
   std::vector<UndecidedVoxel> undecided;  ///< Certified mode, in voxel order.
   ExtractionMeasurements measurements;

@@ -22,6 +22,10 @@ enum TriangleFlags : std::uint8_t {
   kUncrossed = 1u << 1,
 };
 
+/// A side of the boundary: inside are the points whose winding number is at least 1/2 (docs/theory.md, "The
+/// complement").
+enum class MeshSide : std::uint8_t { kInside, kOutside };
+
 /// A borrowed triangle mesh. Triangles are counter-clockwise seen from outside. No triangle may be degenerate, all
 /// coordinates must be finite, every index must be below vertices.size().
 struct MeshView {

@@ -48,14 +48,14 @@ struct Surroundings {
 
 class Certifier {
  public:
-  Certifier(const Bvh& bvh, const ExtractionOptions& options, double longest_side, const VoxelGrid& grid)
-      : bvh_(bvh),
-        triangles_(bvh),
+  Certifier(const IndexedMesh& mesh, const ExtractionOptions& options, const VoxelGrid& grid)
+      : bvh_(mesh.bvh()),
+        triangles_(bvh_, mesh.region_lower(), mesh.region_upper()),
         options_(options),
         grid_(grid),
-        longest_(longest_side),
+        longest_(mesh.longest_side()),
         epsilon_(options.epsilon * grid.voxel_size),
-        rounding_(distance_rounding(bvh)) {}
+        rounding_(distance_rounding(mesh)) {}
 
   /// Gathers the tree's leaves near these spheres, for certify() of each.
   void surround(const std::vector<MedialSphere>& spheres, std::span<const std::uint32_t> group, Surroundings& s) const {
@@ -256,7 +256,7 @@ void list_dropped(const std::vector<std::uint8_t>& passed, Extraction& extractio
 Result<CertificateReport> certify_spheres(const IndexedMesh& mesh, const ExtractionOptions& options,
                                           Extraction& extraction) try {
   std::vector<MedialSphere>& spheres = extraction.spheres;
-  const Certifier certifier(mesh.bvh(), options, mesh.longest_side(), extraction.grid);
+  const Certifier certifier(mesh, options, extraction.grid);
   std::vector<std::uint8_t> passed = first_of_voxels(spheres);
   const std::size_t count = thread_count(options.threads);
   const NeighbourGroups groups(spheres);

@@ -12,7 +12,7 @@ namespace medial_vk {
 namespace {
 
 // The amount by which a triangle may be nearer than the bounds of lanes_near() and squared_bounds(), and a box than
-// that of boxes_near(). The unit is the longest side of the tree's box, whose middle is the origin; balls have their
+// that of boxes_near(). The unit is the longest side of the box, whose middle is the origin; balls have their
 // centres within 1 of it, along each axis; |a| below is the distance of a centre and a corner, for any radius. With u =
 // 2^-24: rounding moves the centre by u and the corners by u / 2 a coordinate, and their differences by 1.5 u: 5.2 u in
 // all. A product s.a has an error of 4 u |s| |a| with |a| < 2.6. That is less than 16 u = 9.6e-7; the squares of limit,
@@ -48,10 +48,11 @@ Vectors toward_triangles(const Vectors& a, const Vectors& b, const Vectors& c) {
 
 }  // namespace
 
-NearTriangles::NearTriangles(const Bvh& bvh) : bvh_(bvh) {
-  const BvhBox& box = bvh.nodes().front().box;
-  origin_ = 0.5 * (box.lower + box.upper);
-  scale_ = 1 / std::ranges::max(box.upper - box.lower);
+NearTriangles::NearTriangles(const Bvh& bvh)
+    : NearTriangles(bvh, bvh.nodes().front().box.lower, bvh.nodes().front().box.upper) {}
+
+NearTriangles::NearTriangles(const Bvh& bvh, const Point& lower, const Point& upper)
+    : bvh_(bvh), origin_(0.5 * (lower + upper)), scale_(1 / std::ranges::max(upper - lower)) {
   for (std::vector<float>& coordinates : corners_) coordinates.resize(bvh.corners().size() + kLanes);
   for (std::size_t i = 0; i < bvh.corners().size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {

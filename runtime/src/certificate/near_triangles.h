@@ -23,6 +23,8 @@ class NearTriangles {
  public:
   /// `bvh` outlives it.
   explicit NearTriangles(const Bvh& bvh);
+  /// The same for balls with centres in a box that holds the triangles: farther ones are slow.
+  NearTriangles(const Bvh& bvh, const Point& lower, const Point& upper);
 
   void surround(const Point& centre, double radius, Region& region) const;
   /// As gather_within(), in another order; fast where the ball lies in `region`. All triangles that may reach into

@@ -81,7 +81,9 @@ Status DeviceMesh::update(const IndexedMesh& moved) {
 }
 
 Status DeviceMesh::update(const IndexedMesh& moved, const Uploader& uploader) {
-  if (moved.bvh().order() != order || moved.view().vertices.size() != source_.view().vertices.size()) {
+  const bool is_same_mesh = moved.bvh().order() == order && moved.side() == source_.side() &&
+                            moved.view().vertices.size() == source_.view().vertices.size();
+  if (!is_same_mesh) {
     return Error{ErrorCode::kUsage, "the mesh is not a moved copy of the one on the device"};
   }
   source_ = moved;
@@ -107,13 +109,14 @@ Status DeviceMesh::measure() {
   const MeshView mesh = source_.view();
   const BvhBox& box = tree_nodes()[0].box;
   const Point sides = box.upper - box.lower;
-  const double side = std::max({sides[0], sides[1], sides[2]});
-  if (!(side > 0) || !std::isfinite(side)) {
+  const double extent = std::max({sides[0], sides[1], sides[2]});
+  if (!(extent > 0) || !std::isfinite(extent) || !std::isfinite(source_.longest_side())) {
     return Error{ErrorCode::kInvalidMesh, "the mesh has no extent, or one too large for a double"};
   }
-  lower = box.lower;
-  upper = box.upper;
-  longest = side;
+  lower = source_.region_lower();
+  upper = source_.region_upper();
+  longest = source_.longest_side();
+  side = source_.side();
   closed = mesh.closed;
   has_untrusted = mesh.flags.empty() || !std::all_of(mesh.flags.begin(), mesh.flags.end(),
                                                      [](std::uint8_t f) { return (f & kTrustedNormal) != 0; });

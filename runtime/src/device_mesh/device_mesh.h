@@ -28,7 +28,8 @@ namespace medial_vk {
 /// copies them.
 using Uploader = std::function<Status(const Buffer& buffer, std::span<const std::byte> bytes)>;
 
-/// Positions on the device are (x - lower) / longest: the mesh's box becomes a box with longest side 1 at the origin.
+/// Positions on the device are (x - lower) / longest: the box of the search, which is that of the mesh or larger
+/// (IndexedMesh::on_side()), becomes a box with longest side 1 at the origin.
 /// Kernels address triangles by leaf position.
 struct DeviceMesh {
   DeviceMesh(DeviceMesh&&) noexcept = default;
@@ -106,12 +107,13 @@ struct DeviceMesh {
   bool intact = true;  // false after a failed update: the device may hold parts of both meshes
   bool closed = false;
   bool has_untrusted = true;  // the normal of some triangle proves nothing
+  MeshSide side = MeshSide::kInside;
   std::uint32_t triangle_count = 0;
   std::uint32_t node_count = 0;  // inner nodes of the tree
   std::uint32_t cluster_count = 0, most_in_cluster = 0;
   std::uint32_t open_edge_count = 0;  // of all, listed or not (gpu::kMostOpenEdges)
   float cluster_radius = 0;           // median, in the unit box
-  Point lower = {0, 0, 0};            // of the box around all triangles, input units
+  Point lower = {0, 0, 0};            // of the box of the search, around all triangles, input units
   Point upper = {0, 0, 0};
   double longest = 0;                // longest side of that box
   std::vector<std::uint32_t> order;  // triangle_info on the host

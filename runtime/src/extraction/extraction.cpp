@@ -30,6 +30,8 @@ Result<Extraction> watched(const ExtractionOptions& options, const ProgressCallb
 
 Result<Extraction> extract(ContextImpl& context, DeviceMesh& mesh, const ExtractionOptions& options, StopWatch& watch) {
   if (watch.stopped()) return StopWatch::error();
+  if (options.mode == Mode::kThesis && mesh.side == MeshSide::kOutside)
+    return Error{ErrorCode::kUsage, "`mode` thesis searches the inside only"};
   if (options.mode == Mode::kThesis) return extract_thesis(context, mesh, options, watch);
   if (Status s = mesh.add_links(); !s.ok()) return s.error();
   return extract_certified(context, mesh, options, watch);

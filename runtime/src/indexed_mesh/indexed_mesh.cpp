@@ -1,6 +1,7 @@
 #include "medial_vk/indexed_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -41,7 +42,34 @@ Status check_moved(const PreparedMesh& mesh, std::span<const Point> vertices, st
   return check_flags(flags.size(), mesh.mesh.triangles.size());
 }
 
+// Rounding on the device is in proportion to the box: at ten times the longest side it takes 21 times as much of the
+// mesh as without a margin.
+constexpr double kMostMargin = 10;
+
+Status check_side(const SideOptions& options, MeshSide present, double longest_side) {
+  if (present != MeshSide::kInside) {
+    return Error{ErrorCode::kUsage, "the mesh is that of the outside already: its side cannot be chosen again"};
+  }
+  if (options.margin >= 0 && options.margin <= kMostMargin * longest_side) return {};
+  return Error{ErrorCode::kUsage, "`margin` must be 0 to 10 times the longest side of the mesh"};
+}
+
+// Beside an open mesh, points outside lie behind triangles, too: of these no normal proves anything about the outside
+// (docs/theory.md, "The complement").
+void turn_over(PreparedMesh& mesh) {
+  for (Triangle& t : mesh.mesh.triangles) std::swap(t[1], t[2]);
+  if (mesh.report.closed) return;
+  for (std::uint8_t& flags : mesh.flags) {
+    if ((flags & kTrustedNormal) != 0) flags = kUncrossed;
+  }
+}
+
 }  // namespace
+
+double IndexedMesh::Impl::room() const {
+  if (!margin) return 0;
+  return *margin > 0 ? *margin : 0.5 * prepared.report.longest_side();
+}
 
 IndexedMesh::IndexedMesh(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
 
@@ -52,7 +80,8 @@ Result<IndexedMesh> IndexedMesh::build(PreparedMesh mesh, const IndexOptions& op
     if (!bvh.ok()) return bvh.error();
     take_box(bvh.value(), mesh.report);  // a caller may have filled in the mesh
     MeshLinks links = make_mesh_links(mesh.view(), bvh.value().order(), options.threads);
-    return IndexedMesh(std::make_shared<const Impl>(Impl{std::move(mesh), std::move(bvh).value(), std::move(links)}));
+    return IndexedMesh(std::make_shared<const Impl>(
+        Impl{std::move(mesh), std::move(bvh).value(), std::move(links), MeshSide::kInside, {}}));
   });
 }
 
@@ -68,7 +97,8 @@ Result<IndexedMesh> IndexedMesh::build(const MeshView& mesh, const IndexOptions&
     if (!bvh.ok()) return bvh.error();
     take_box(bvh.value(), copy.report);
     MeshLinks links = make_mesh_links(copy.view(), bvh.value().order(), options.threads);
-    return IndexedMesh(std::make_shared<const Impl>(Impl{std::move(copy), std::move(bvh).value(), std::move(links)}));
+    return IndexedMesh(std::make_shared<const Impl>(
+        Impl{std::move(copy), std::move(bvh).value(), std::move(links), MeshSide::kInside, {}}));
   });
 }
 
@@ -76,7 +106,41 @@ const PreparedMesh& IndexedMesh::prepared() const { return impl_->prepared; }
 MeshView IndexedMesh::view() const { return impl_->prepared.view(); }
 const Bvh& IndexedMesh::bvh() const { return impl_->bvh; }
 
-double IndexedMesh::longest_side() const { return impl_->prepared.report.longest_side(); }
+MeshSide IndexedMesh::side() const { return impl_->side; }
+
+double IndexedMesh::longest_side() const { return impl_->prepared.report.longest_side() + 2 * impl_->room(); }
+
+double IndexedMesh::margin() const { return impl_->room(); }
+
+Point IndexedMesh::region_lower() const {
+  const Point& lower = impl_->prepared.report.lower;
+  const double room = margin();
+  return {lower[0] - room, lower[1] - room, lower[2] - room};
+}
+
+Point IndexedMesh::region_upper() const {
+  const Point& upper = impl_->prepared.report.upper;
+  const double room = margin();
+  return {upper[0] + room, upper[1] + room, upper[2] + room};
+}
+
+Result<IndexedMesh> IndexedMesh::on_side(const SideOptions& options) const {
+  const double longest = impl_->prepared.report.longest_side();
+  if (Status status = check_side(options, side(), longest); !status.ok()) return status.error();
+  return catch_out_of_memory("turning a mesh over", [&]() -> Result<IndexedMesh> {
+    auto turned = std::make_shared<Impl>(*impl_);
+    turned->side = options.side;
+    turned->margin = options.margin;
+    if (options.side == MeshSide::kInside) return IndexedMesh(std::move(turned));
+    turn_over(turned->prepared);
+    const MeshView view = turned->prepared.view();
+    Result<Bvh> bvh = Bvh::build(view, {.leaf_size = gpu::kMostLeafTriangles, .threads = options.threads});
+    if (!bvh.ok()) return bvh.error();
+    turned->bvh = std::move(bvh).value();
+    turned->links = make_mesh_links(view, turned->bvh.order(), options.threads);
+    return IndexedMesh(std::move(turned));
+  });
+}
 
 Status IndexedMesh::move_vertices(std::span<const Point> vertices, const MoveOptions& options) {
   const std::span<const std::uint8_t> flags = options.flags;

@@ -1,6 +1,8 @@
 // The data of an IndexedMesh.
 #pragma once
 
+#include <optional>
+
 #include "base/internals.h"
 #include "indexed_mesh/mesh_links.h"
 #include "medial_vk/indexed_mesh.h"
@@ -11,6 +13,11 @@ struct IndexedMesh::Impl {
   PreparedMesh prepared;
   Bvh bvh;
   MeshLinks links;  // by position in bvh.order()
+  MeshSide side = MeshSide::kInside;
+  std::optional<double> margin = {};  // of on_side(); 0: half of the longest side
+
+  /// The amount by which the box of the search extends beyond the mesh.
+  double room() const;
 };
 
 }  // namespace medial_vk

@@ -15,25 +15,32 @@ namespace {
 // The error of a winding number by a tree is at most 0.03, which suffices away from 1/2.
 constexpr double kDoubt = 0.05;
 
+// The distance is the length of a difference of points that are themselves sums of at most three products: with
+// u = 2^-53, below 16 u times the lengths involved (query to corner, edge), which stay below twice the longest side of
+// a box with all of them. The units of the mesh add one rounding of the coordinates, u times their magnitude, if the
+// origin is moved.
+double rounding_in_box(const Point& lower, const Point& upper) {
+  constexpr double u = 0x1p-53;
+  double magnitude = 0, longest = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    magnitude = std::max({magnitude, std::fabs(lower[axis]), std::fabs(upper[axis])});
+    longest = std::max(longest, upper[axis] - lower[axis]);
+  }
+  return 32 * u * longest + 4 * u * magnitude;
+}
+
 // Above the rounding of a sum of a million angles, each with an error of some 2^-50. The angle of a triangle has a
 // greater error next to one of its edges: at a distance of s times its size, some 2^-50 / s.
 constexpr double kSharp = 1e-6;
 
 }  // namespace
 
-// The distance is the length of a difference of points that are themselves sums of at most three products: with
-// u = 2^-53, below 16 u times the lengths involved (query to corner, edge), which stay below twice the longest side.
-// The units of the mesh add one rounding of the coordinates, u times their magnitude, if the origin is moved.
 double distance_rounding(const Bvh& bvh) {
-  constexpr double u = 0x1p-53;
   const BvhBox& box = bvh.nodes().front().box;
-  double magnitude = 0, longest = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    magnitude = std::max({magnitude, std::fabs(box.lower[axis]), std::fabs(box.upper[axis])});
-    longest = std::max(longest, box.upper[axis] - box.lower[axis]);
-  }
-  return 32 * u * longest + 4 * u * magnitude;
+  return rounding_in_box(box.lower, box.upper);
 }
+
+double distance_rounding(const IndexedMesh& mesh) { return rounding_in_box(mesh.region_lower(), mesh.region_upper()); }
 
 Solid::Solid(const IndexedMesh& mesh, Bvh bvh)
     : mesh_(mesh),
@@ -44,6 +51,9 @@ Solid::Solid(const IndexedMesh& mesh, Bvh bvh)
 
 Result<Solid> Solid::build(const IndexedMesh& mesh) {
   constexpr std::uint32_t kLeafSize = 4;
+  if (mesh.side() == MeshSide::kOutside) {
+    return Error{ErrorCode::kUsage, "the mesh is that of the outside, which has no end: give the mesh itself"};
+  }
   Result<Bvh> bvh = refined_tree(mesh.bvh(), kLeafSize);
   if (!bvh) return bvh.error();
   Solid solid(mesh, std::move(bvh).value());

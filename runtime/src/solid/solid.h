@@ -17,6 +17,8 @@ namespace medial_vk {
 
 /// Bound of the rounding error of distances computed by `bvh`.
 double distance_rounding(const Bvh& bvh);
+/// The same for queries in the box of the search (IndexedMesh::on_side()).
+double distance_rounding(const IndexedMesh& mesh);
 
 /// The side of the boundary on which all points of a set lie, if it is known that they lie on one.
 enum class SolidSide : std::uint8_t { kInside, kOutside, kUnknown };
@@ -24,7 +26,8 @@ enum class SolidSide : std::uint8_t { kInside, kOutside, kUnknown };
 /// Queries may come from several threads at once.
 class Solid {
  public:
-  /// Shares the mesh, and refines its tree: small leaves suit scattered queries. Errors: kOutOfMemory.
+  /// Shares the mesh, and refines its tree: small leaves suit scattered queries. Errors: kUsage (the outside of a mesh,
+  /// which has no end), kOutOfMemory.
   static Result<Solid> build(const IndexedMesh& mesh);
 
   const IndexedMesh& indexed() const { return mesh_; }

@@ -111,7 +111,9 @@ class AnalysisRun {
         make_medial_mesh(out_.spheres, *out_.sheets, {out_.grid.voxel_size, epsilon(), options_.threads});
     if (!joined) return joined.error();
     out_.medial_mesh = std::move(joined).value();
-    out_.euler_characteristic = euler_characteristic_of_solid(mesh_.prepared());
+    if (mesh_.side() == MeshSide::kInside) {
+      out_.euler_characteristic = euler_characteristic_of_solid(mesh_.prepared());
+    }
     out_.measurements.host_times.push_back({"medial mesh", stopwatch.lap()});
     return {};
   }

@@ -19,7 +19,7 @@ uint side_by_harnack(vec3 centre, float radius, float clearance) {
   for (float tolerance = 0.2; tolerance > 0.01; tolerance *= 0.2) {
     // Not even a winding number of 0 or 1 could decide the side.
     if ((tolerance + kSpill) * harnack >= 0.5 + kSpill) continue;
-    Winding w = winding_number(centre, tolerance);
+    Winding w = rough_winding_number(centre, tolerance);
     if (!w.complete) return kSideUnknown;
     float above = w.number + w.bound + kSpill, below = 1.0 + kSpill + w.bound - w.number;
     if (above > 0.0 && above * harnack < 0.5 + kSpill) return kSideOutside;

@@ -13,6 +13,9 @@ const float kTangentRounding = 4e-7, kAtanRounding = 2.5e-4;
 
 // False: the mesh has no open edges, and a driver need not translate the code for them.
 layout(constant_id = 1) const bool kIsOpen = true;
+// The winding number far away: 1 where the triangles bound the outside of a mesh and are turned over, else 0
+// (docs/theory.md, "The complement").
+layout(constant_id = 2) const uint kFarNumber = 0u;
 
 struct Closure {
   float number;         // winding number of the triangles that close the mesh
@@ -78,6 +81,12 @@ Closure closure_at(vec3 p, float radius, vec3 direction) {
 // The error is below 1/4, so that an error of the sum by 1/2 is noticed.
 const float kRoughTolerance = 0.2;
 
+// The winding number within the tolerance, by the tree alone.
+Winding rough_winding_number(vec3 p, float tolerance) {
+  Winding w = winding_number(p, tolerance);
+  return Winding(float(kFarNumber) + w.number, w.bound, w.complete);
+}
+
 // The winding number of the mesh. `bound` is a large number if neither the ray nor a rough number determines the whole
 // one.
 Winding accurate_winding_number(vec3 p, vec3 direction, Closure closure) {
@@ -91,7 +100,7 @@ Winding accurate_winding_number(vec3 p, vec3 direction, Closure closure) {
     if (abs(all - whole) > rough.bound + kSumRounding + closure.error) error = 1e3;
     complete = rough.complete;
   }
-  return Winding(whole - closure.number, error, complete);
+  return Winding(float(kFarNumber) + whole - closure.number, error, complete);
 }
 
 #endif

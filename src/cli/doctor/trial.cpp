@@ -55,7 +55,7 @@ Mesh make_solid() {
 CheckReport compare(const TrialTask& task, const CertifiedExtraction& found) {
   CheckReport report = check_agreement(found, task.reference, task.options);
   const VoxelGrid& grid = found.extraction.grid;
-  CheckReport balls = check_medial_spheres(task.mesh.prepared(), grid, found.extraction.spheres,
+  CheckReport balls = check_medial_spheres(task.mesh, grid, found.extraction.spheres,
                                            task.options.epsilon * grid.voxel_size, task.options.object_angle, 0);
   for (CheckLine& line : balls.lines) report.lines.push_back(std::move(line));
   return report;

@@ -10,6 +10,7 @@
 
 #include "base/stopwatch.h"
 #include "check_reports/check_sheets.h"
+#include "cli/extract/both_sides.h"
 #include "cli/extract/summary.h"
 #include "cli/extract/wall_run.h"
 #include "cli/options/measures.h"
@@ -108,8 +109,28 @@ Status MeshRun::index(PreparedMesh mesh) {
   if (!made) return with_hint(made.error());
   mesh_.emplace(std::move(made).value());
   record_.longest_side = mesh_->longest_side();
+  if (Status status = choose_sides(threads); !status) return status;
   index_seconds_ = stopwatch.lap();
   if (reports_index()) record_.host_times.push_back({"index", index_seconds_});
+  return {};
+}
+
+/// Both sides have one grid, since their boxes are the same.
+Status MeshRun::choose_sides(unsigned threads) {
+  const double margin = options_.margin ? options_.margin->of(mesh_->longest_side()) : 0;
+  for (const MeshSide side : {MeshSide::kInside, MeshSide::kOutside}) {
+    if (!(side == MeshSide::kInside ? options_.searches_inside() : options_.searches_outside())) continue;
+    if (!options_.searches_outside()) {
+      searched_.push_back(*mesh_);
+      continue;
+    }
+    Result<IndexedMesh> made = mesh_->on_side({side, margin, threads});
+    if (!made) return with_hint(made.error());
+    searched_.push_back(std::move(made).value());
+  }
+  const IndexedMesh& searched = searched_.back();
+  record_.search = {options_.searches_inside(), options_.searches_outside(), searched.margin(),
+                    searched.region_lower(),    searched.region_upper(),     searched.longest_side()};
   return {};
 }
 
@@ -127,7 +148,7 @@ Status MeshRun::take_device() {
 std::string MeshRun::opening_line() const { return opening(record_); }
 
 /// While a device computes, a signal requests a stop; afterwards it may end the program at once.
-Status MeshRun::analyse_mesh() {
+Result<Analysis> MeshRun::analyse_side(const IndexedMesh& mesh, const Extractor& extractor) {
   std::optional<EndAtOnce> on_host;
   std::stop_source stop;
   const StageProgress on_progress = [&](const char* stage, double done) {
@@ -136,12 +157,30 @@ Status MeshRun::analyse_mesh() {
     shared_.progress.update(stage, done);
     if (interrupted()) stop.request_stop();
   };
+  Result<Analysis> made = analyse(mesh, analysis_options(options_), extractor, on_progress, stop.get_token());
+  shared_.progress.clear();
+  if (made) return made;
+  return made.error().code == ErrorCode::kInterrupted ? stopped() : with_hint(made.error());
+}
+
+Status MeshRun::analyse_mesh() {
   const Extractor extractor = options_.backend == Backend::kCpu ? reference_with_estimate(shared_.progress)
                                                                 : device_extractor(*shared_.context);
-  Result<Analysis> made = analyse(*mesh_, analysis_options(options_), extractor, on_progress, stop.get_token());
-  shared_.progress.clear();
-  if (!made) return made.error().code == ErrorCode::kInterrupted ? stopped() : with_hint(made.error());
-  analysis_ = std::move(made).value();
+  for (const IndexedMesh& mesh : searched_) {
+    Result<Analysis> made = analyse_side(mesh, extractor);
+    if (!made) return made.error();
+    const bool is_first = &mesh == searched_.data();
+    if (mesh.side() == MeshSide::kInside) {
+      record_.search.inside_points = made.value().spheres.size();
+      record_.search.inside_sheets = made.value().sheets->sheets.size();
+    }
+    if (made.value().significance) {
+      const Significance& measured = *made.value().significance;
+      (is_first ? record_.ball_union : record_.outside_union) =
+          UnionRecord{measured.volume, measured.area, measured.topology, leading_components(measured.of_component)};
+    }
+    analysis_ = is_first ? std::move(made).value() : joined(std::move(analysis_), std::move(made).value());
+  }
   describe();
   return {};
 }
@@ -158,11 +197,6 @@ void MeshRun::describe() {
   record_.object_angles = range_of_object_angles(analysis_.spheres);
   record_.sheet_options = options_.sheets;
   record_.sheets = std::move(*analysis_.sheets);
-  if (analysis_.significance) {
-    const Significance& measured = *analysis_.significance;
-    record_.ball_union =
-        UnionRecord{measured.volume, measured.area, measured.topology, leading_components(measured.of_component)};
-  }
   record_.orders_end_at = options_.sheet_curve.empty() ? options_.keep_volume : 0;
   record_.by_significance = std::move(analysis_.by_significance);
   record_.keeping_topology = std::move(analysis_.keeping_topology);
@@ -179,7 +213,7 @@ Status MeshRun::measure() {
   if (!measures_of(options_).any() && !options_.needs_walls()) return {};
   const EndAtOnce guard;
   if (interrupted()) return stopped();
-  Result<MeasuredBoundary> made = measure_boundary(*mesh_, analysis_.spheres, record_.grid.voxel_size, options_,
+  Result<MeasuredBoundary> made = measure_boundary(*mesh_, spheres_inside(), record_.grid.voxel_size, options_,
                                                    shared_.progress, record_.host_times);
   shared_.progress.clear();
   if (!made) return made.error();
@@ -190,6 +224,11 @@ Status MeshRun::measure() {
   boundary_.record.walls = std::move(compared).value();
   record_.boundary = boundary_.record;
   return {};
+}
+
+std::span<const MedialSphere> MeshRun::spheres_inside() const {
+  const std::span<const MedialSphere> all = analysis_.spheres;
+  return record_.search.outside ? all.first(record_.search.inside_points) : all;
 }
 
 /// Files are made in memory: until they are written a signal may end the program. These steps do not test for one.
@@ -206,14 +245,15 @@ Status MeshRun::make_files() {
   encode_mesh();
   encode_report();
   mesh_.reset();
+  searched_.clear();
   analysis_ = Analysis();
   boundary_ = MeasuredBoundary();
   return {};
 }
 
-/// For the report, and for the page, which shows it.
+/// For the report, and for the page, which shows it. A solid without an end is not fat or thin (Section 8.3).
 Status MeshRun::measure_fat() {
-  if (options_.report.empty() && options_.html.empty()) return {};
+  if ((options_.report.empty() && options_.html.empty()) || record_.search.outside) return {};
   Stopwatch stopwatch;
   FatnessRecord fatness;
   Result<std::vector<Fatness>> of_angles = measure_fatness(
@@ -248,7 +288,8 @@ void MeshRun::encode_mesh() {
 }
 
 Status MeshRun::encode() {
-  header_ = make_header(record_.grid, options_.extraction, record_.longest_side);
+  header_ = make_header(record_.grid, options_.extraction, record_.search.longest_side);
+  if (record_.search.outside) header_.inside_count = record_.search.inside_points;
   Result<std::string> bytes = encode_points(
       {options_.format, options_.ascii, options_.mesh_spheres, options_.gpu_instancing, options_.sphere_detail},
       header_, analysis_.spheres, record_.sheets.marks);
@@ -270,16 +311,34 @@ Status MeshRun::check() {
   const std::string ply = is_ply ? std::string() : encode_ply(header_, analysis_.spheres, false);
   const Result<MedialFile> written = decode_ply(is_ply ? files_[points_file_].bytes : ply, options_.output);
   if (!written) return Error{ErrorCode::kInternal, "what was written cannot be read: " + written.error().message};
-  const MedialHeader& header = written.value().header;
-  const VoxelGrid grid = {header.grid_origin, header.voxel_size, record_.grid.size};
-  record_.check = check_medial_spheres(mesh_->prepared(), grid, written.value().spheres, header.epsilon,
-                                       header.object_angle, header.radius_threshold);
-  for (CheckLine& line : check_sheets(written.value().spheres, !record_.removal)) {
-    record_.check->lines.push_back(std::move(line));
+  record_.check = CheckReport();
+  for (const IndexedMesh& searched : searched_) {
+    CheckReport side = check_side(searched, written.value());
+    for (CheckLine& line : side.lines) {
+      if (searched_.size() > 1) line.condition = std::string(side_name(searched.side())) + ": " + line.condition;
+      record_.check->lines.push_back(std::move(line));
+    }
   }
   record_.host_times.push_back({"check", stopwatch.lap()});
   shared_.progress.clear();
   return {};
+}
+
+CheckReport MeshRun::check_side(const IndexedMesh& searched, const MedialFile& written) const {
+  const MedialHeader& header = written.header;
+  std::vector<MedialSphere> spheres;
+  for (std::size_t i = 0; i < written.spheres.size(); ++i) {
+    if (header.side_of(i) != searched.side()) continue;
+    spheres.push_back(written.spheres[i]);
+    if (searched.side() == MeshSide::kOutside) {
+      spheres.back().sheet -= static_cast<std::int32_t>(record_.search.inside_sheets);
+    }
+  }
+  const VoxelGrid grid = {header.grid_origin, header.voxel_size, record_.grid.size};
+  CheckReport report =
+      check_medial_spheres(searched, grid, spheres, header.epsilon, header.object_angle, header.radius_threshold);
+  for (CheckLine& line : check_sheets(spheres, !record_.removal)) report.lines.push_back(std::move(line));
+  return report;
 }
 
 Status MeshRun::draw() {
@@ -293,6 +352,7 @@ Status MeshRun::draw() {
   }
   PictureOptions look = options_.look;
   look.least_angle = options_.extraction.object_angle;
+  look.frame_points = record_.search.outside;
   DrawnPicture drawn = draw_picture(mesh_->prepared().mesh, analysis_.spheres, record_.grid.voxel_size, look,
                                     record_.device ? &*record_.device : nullptr);
   return add_picture(drawn.picture, std::move(drawn.drawn_by), stopwatch);

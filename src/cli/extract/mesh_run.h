@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "base/stopwatch.h"
+#include "check_reports/check_report.h"
 #include "cli/extract/boundary_run.h"
 #include "cli/options/options.h"
 #include "cli/shared/shared_of_run.h"
@@ -42,6 +44,8 @@ class MeshRun {
 
  private:
   Status index(PreparedMesh mesh);
+  Status choose_sides(unsigned threads);
+  Result<Analysis> analyse_side(const IndexedMesh& mesh, const Extractor& extractor);
   bool reports_index() const;
   void describe();
   Status measure_fat();
@@ -50,6 +54,8 @@ class MeshRun {
   void encode_mesh();
   Status encode();
   Status check();
+  CheckReport check_side(const IndexedMesh& searched, const MedialFile& written) const;
+  std::span<const MedialSphere> spheres_inside() const;
   Status draw();
   Status add_picture(const Picture& picture, std::string drawn_by, Stopwatch& stopwatch);
   void make_page();
@@ -58,6 +64,7 @@ class MeshRun {
   const Options options_;
   SharedOfRun& shared_;
   std::optional<IndexedMesh> mesh_;
+  std::vector<IndexedMesh> searched_;  // by side, inside first
   Analysis analysis_;
   MeasuredBoundary boundary_;
   MedialHeader header_;

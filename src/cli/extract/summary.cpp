@@ -37,9 +37,22 @@ std::string describe_voxels(const RunRecord& record) {
   return text;
 }
 
+std::string describe_search(const SearchRecord& search) {
+  return fmt::format("{}, up to {:.5g} beyond the bounding box", search.inside ? "inside and outside" : "outside",
+                     search.margin);
+}
+
 std::string describe_points(const RunRecord& record) {
+  const SearchRecord& search = record.search;
   std::string text = grouped(record.points);
-  if (record.points == 0) text += " (none above the thresholds; another --resolution, or --perturb, may find some)";
+  if (search.inside && search.outside) {
+    text += fmt::format(" ({} inside, {} outside)", grouped(search.inside_points),
+                        grouped(record.points - search.inside_points));
+  }
+  if (record.points == 0 && !search.inside) {
+    text += " (none above the thresholds: a convex solid has none outside)";
+  } else if (record.points == 0)
+    text += " (none above the thresholds; another --resolution, or --perturb, may find some)";
   if (record.simplified > 0) text += fmt::format(" ({} removed by --simplify)", grouped(record.simplified));
   return text;
 }
@@ -57,11 +70,10 @@ std::string describe(const BettiNumbers& betti) {
                      counted(betti.tunnels, "tunnel", "tunnels"), counted(betti.cavities, "cavity", "cavities"));
 }
 
-std::string describe_union(const RunRecord& record) {
-  const UnionRecord& whole = *record.ball_union;
+std::string describe_union(const RunRecord& record, const UnionRecord& whole, bool of_inside) {
   std::string text = fmt::format("{:.6g}", whole.volume);
   // An open mesh has no volume to compare with.
-  if (record.mesh.closed && record.mesh.signed_volume > 0) {
+  if (of_inside && record.mesh.closed && record.mesh.signed_volume > 0) {
     text += fmt::format(", {:.2f} % of the solid", 100 * whole.volume / record.mesh.signed_volume);
   }
   text += "; " + describe(whole.topology);
@@ -155,6 +167,7 @@ std::string opening(const RunRecord& record) {
   std::string text =
       fmt::format("{}: {}{} {:.5g}\n", mesh_name(record.input), part, describe_mesh(record.mesh), record.longest_side);
   for (const std::string& assumption : record.mesh.assumptions) text += labelled("note", assumption);
+  if (record.search.outside) text += labelled("side", describe_search(record.search));
   text += labelled("device", where(record));
   if (record.backend == Backend::kVulkan) {
     text += labelled("memory", fmt::format("at most {} of the device's {}", memory_size(record.options.memory_budget),
@@ -167,7 +180,8 @@ std::string summary(const RunRecord& record, std::span<const OutputFile> files) 
   std::string text = labelled("points", describe_points(record));
   text += labelled("voxels", describe_voxels(record));
   if (record.points > 0) text += labelled("sheets", describe_sheets(record.sheets));
-  if (record.ball_union) text += labelled("volume", describe_union(record));
+  if (record.ball_union) text += labelled("volume", describe_union(record, *record.ball_union, record.search.inside));
+  if (record.outside_union) text += labelled("outside", describe_union(record, *record.outside_union, false));
   if (record.fatness && record.points > 0) text += labelled("fat", describe_fatness(*record.fatness));
   if (record.removal) text += labelled("kept", describe_removal(*record.removal));
   if (record.medial_mesh) text += labelled("mesh", describe_medial_mesh(record));

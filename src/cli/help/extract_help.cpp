@@ -107,6 +107,12 @@ What is measured on the boundary, for summary, report, page and these files:
                         (default 1.2: edges sharper than 42 degrees count, too)
 
 What is looked for (lengths are fractions, so units do not matter):
+      --side inside|outside|both
+                        of the boundary (default inside); outside in a box,
+                        which is no wall and is then the bounding box below
+      --margin M        outside: how far that box reaches beyond the mesh, in
+                        units of the mesh or with % of its longest side, up to
+                        1000% (default: half its longest side)
       --resolution N    voxels along the longest side of the bounding box,
                         1 to 4096 (default 160)
       --object-angle A  keep points whose object angle, half the angle between

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -50,6 +51,12 @@ class Declarations {
   void real(const char* name, const RealRange& range, const char* unit, double& target) {
     parsed(
         name, [=](const std::string& text) { return parse_real(text, range, unit); }, target);
+  }
+
+  /// `unit`: " (units of the mesh)".
+  void length(const char* name, double greatest, const char* unit, std::optional<Length>& target) {
+    parsed(
+        name, [=](const std::string& text) { return parse_length(text, greatest, unit); }, target);
   }
 
   template <class T>

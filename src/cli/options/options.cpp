@@ -36,6 +36,14 @@ void declare_boundary(Declarations& add, Options& options) {
   add.real("--wall-angle", {std::numbers::pi / 4, std::numbers::pi / 2, false}, " radians", options.wall_angle);
 }
 
+/// Where medial points are sought.
+void declare_side(Declarations& add, Options& options) {
+  add.choice<SearchSide>(
+      "--side", {{"inside", SearchSide::kInside}, {"outside", SearchSide::kOutside}, {"both", SearchSide::kBoth}},
+      options.side);
+  add.length("--margin", 1e150, " (units of the mesh)", options.margin);
+}
+
 void declare(CLI::App& app, Options& options) {
   ExtractionOptions& extraction = options.extraction;
   Declarations add(app);
@@ -72,6 +80,7 @@ void declare(CLI::App& app, Options& options) {
   add.text("--sheet-curve", "file", options.sheet_curve);
   add.text("--ball-volumes", "file", options.ball_volumes);
   declare_boundary(add, options);
+  declare_side(add, options);
 
   add.whole("--resolution", 1, 4096, " voxels", extraction.resolution);
   add.real("--object-angle", {0, std::numbers::pi / 2, false}, " radians", extraction.object_angle);
@@ -195,6 +204,32 @@ Status check_boundary_options(const Options& options) {
   return {};
 }
 
+/// What --side outside and --side both do not have.
+Status check_side_options(const Options& options) {
+  if (!options.searches_outside()) {
+    if (!options.margin) return {};
+    return usage_error("--margin is about the outside: use it with --side outside or --side both");
+  }
+  if (options.margin && !(options.margin->value > 0)) return usage_error("--margin must be more than 0");
+  if (options.extraction.mode == Mode::kThesis) return usage_error("--mode thesis searches the inside only");
+  if (!options.searches_inside() && measures_of(options).curvature) {
+    return usage_error(
+        "curvature is measured by balls inside: use --curvature, --strokes, --colour kappa1, kappa2 and shape, and "
+        "--boundary without --thickness, with --side inside or --side both");
+  }
+  if (options.side != SearchSide::kBoth) return {};
+  const std::pair<const char*, bool> of_one_side[] = {{"--medial-mesh", !options.medial_mesh.empty()},
+                                                      {"--sheet-curve", !options.sheet_curve.empty()},
+                                                      {"--ball-volumes", !options.ball_volumes.empty()},
+                                                      {"--keep-volume", options.keep_volume > 0}};
+  for (const auto& [name, is_given] : of_one_side) {
+    if (is_given) {
+      return usage_error(fmt::format("{} is about one union of balls: use it with --side inside or outside", name));
+    }
+  }
+  return {};
+}
+
 /// Options about the picture need a picture.
 Status check_picture_options(const Options& options) {
   const PictureOptions usual;
@@ -229,6 +264,7 @@ Status complete_files(Options& options) {
   if (Status status = check_picture_options(options); !status) return status;
   if (Status status = take_colour(options); !status) return status;
   if (Status status = check_boundary_options(options); !status) return status;
+  if (Status status = check_side_options(options); !status) return status;
   options.look.view = view_of(options.view, options.look.view.up);
   if (!may_end_in(options.html, ".html")) {
     return usage_error(fmt::format("--html: '{}' does not end in .html", options.html));

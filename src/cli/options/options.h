@@ -9,6 +9,7 @@
 
 #include "boundary_fields/boundary_fields.h"
 #include "cli/options/output_names.h"
+#include "cli/options/parse_number.h"
 #include "cli/options/parse_picture.h"
 #include "common/backend.h"
 #include "medial_vk/medial_spheres.h"
@@ -21,6 +22,9 @@ namespace medial_vk::cli {
 
 /// The words of --colour: of medial points, then of the boundary.
 enum class ColourBy { kAngle, kRadius, kSheet, kThickness, kKappa1, kKappa2, kShape };
+
+/// The words of --side.
+enum class SearchSide { kInside, kOutside, kBoth };
 
 enum class Action { kExtract, kListDevices, kHelp, kVersion };
 
@@ -36,6 +40,8 @@ struct Options {
   std::optional<std::uint32_t> sphere_detail;  ///< None: the default, or less for large files.
 
   bool keep_inner_faces = false;
+  SearchSide side = SearchSide::kInside;
+  std::optional<Length> margin;  ///< None: the usual one.
   ExtractionOptions extraction;
   double perturb = 0;  ///< Fraction of the longest side; 0: off.
   std::uint64_t seed = 1;
@@ -81,6 +87,8 @@ struct Options {
 
   /// Whether a least wall or gap is to be proved, which needs a closed mesh.
   bool needs_walls() const { return least_wall || least_gap || min_wall > 0 || min_gap > 0; }
+  bool searches_inside() const { return side != SearchSide::kOutside; }
+  bool searches_outside() const { return side != SearchSide::kInside; }
   bool operator==(const Options&) const = default;
 };
 

@@ -40,6 +40,17 @@ Result<double> parse_real(const std::string& text, const RealRange& range, const
                                   range.ends_included ? "" : "strictly ", range.least, range.greatest, unit));
 }
 
+Result<Length> parse_length(const std::string& text, double greatest, const char* unit) {
+  if (!text.ends_with('%')) {
+    const Result<double> value = parse_real(text, {0, greatest, true}, unit);
+    if (!value) return value.error();
+    return Length{value.value(), false};
+  }
+  const Result<double> percent = parse_real(text.substr(0, text.size() - 1), {0, 1000, true}, " % of the longest side");
+  if (!percent) return percent.error();
+  return Length{percent.value() / 100, true};
+}
+
 Result<std::uint64_t> parse_whole(const std::string& text, std::uint64_t least, std::uint64_t greatest,
                                   const char* unit) {
   std::uint64_t value = 0;

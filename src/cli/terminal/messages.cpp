@@ -59,7 +59,7 @@ constexpr ParameterWords kParameterWords[] = {
     library_only("largest"),
     {"limit", {}, {}, {}, {}, "--limit"},
     library_only("links"),
-    {"margin", {}, {}, {}, {}, {}, {}, {}, "--margin"},
+    {"margin", "--margin", {}, {}, {}, {}, {}, {}, "--margin"},
     {"max_gap", {}, "--max-gap", "--max-gap"},
     {"medial_mesh", "--medial-mesh", {}, {}},
     {"memory_budget",

@@ -6,6 +6,7 @@
 #include <functional>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -21,6 +22,11 @@ using Json = nlohmann::ordered_json;  // Keys keep their order, which is chosen 
 /// The number of the layout, raised when a key changes its meaning.
 constexpr int kReportFormat = 1;
 
+const char* name_of_search(const SearchRecord& search) {
+  if (!search.outside) return "inside";
+  return search.inside ? "both" : "outside";
+}
+
 Json options_json(const RunRecord& record) {
   const ExtractionOptions& options = record.options;
   const bool thesis = options.mode == Mode::kThesis;
@@ -35,6 +41,7 @@ Json options_json(const RunRecord& record) {
                {"keep_inner_faces", record.keep_inner_faces},
                {"perturb", record.perturb},
                {"seed", record.seed},
+               {"side", name_of_search(record.search)},
                {"memory_bytes", options.memory_budget}};
   if (thesis) {
     json["samples"] = options.thesis.samples;
@@ -136,8 +143,20 @@ Json device_json(const std::optional<DeviceDescription>& device) {
           {"memory_bytes", device->memory_bytes}};
 }
 
-/// Ranks by sheet: 1 for the most significant. Ties go to the smaller number.
-std::vector<std::size_t> ranks_of(const std::vector<Sheet>& sheets) {
+/// Where the outside was searched.
+Json region_json(const RunRecord& record) {
+  const SearchRecord& search = record.search;
+  if (!search.outside) return nullptr;
+  return {{"margin", search.margin},
+          {"lower", search.lower},
+          {"upper", search.upper},
+          {"longest_side", search.longest_side},
+          {"inside_points", search.inside_points},
+          {"outside_points", record.points - search.inside_points}};
+}
+
+/// Ranks by sheet of one side: 1 for the most significant. Ties go to the smaller number.
+std::vector<std::size_t> ranks_of(std::span<const Sheet> sheets) {
   std::vector<std::size_t> order(sheets.size()), ranks(sheets.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, std::greater<>(),
@@ -146,9 +165,12 @@ std::vector<std::size_t> ranks_of(const std::vector<Sheet>& sheets) {
   return ranks;
 }
 
-Json sheets_json(const Sheets& sheets) {
+Json sheets_json(const Sheets& sheets, const SearchRecord& search) {
   Json json = Json::array();
-  const std::vector<std::size_t> ranks = ranks_of(sheets.sheets);
+  const std::span<const Sheet> all = sheets.sheets;
+  std::vector<std::size_t> ranks = ranks_of(all.first(search.outside ? search.inside_sheets : all.size()));
+  const std::vector<std::size_t> outside = ranks_of(all.subspan(ranks.size()));
+  ranks.insert(ranks.end(), outside.begin(), outside.end());
   for (std::size_t id = 0; id < sheets.sheets.size(); ++id) {
     const Sheet& sheet = sheets.sheets[id];
     json.push_back({{"id", id},
@@ -158,6 +180,7 @@ Json sheets_json(const Sheets& sheets) {
                     {"mean_object_angle", sheet.mean_object_angle},
                     {"significance", sheet.significance ? Json(*sheet.significance) : Json(nullptr)},
                     {"rank", sheet.significance ? Json(ranks[id]) : Json(nullptr)}});
+    if (search.outside) json.back()["side"] = id < search.inside_sheets ? "inside" : "outside";
   }
   return json;
 }
@@ -285,6 +308,7 @@ std::string report_json(const RunRecord& record) {
       {"parameters", options_json(record)},
       {"mesh", mesh_json(record.mesh, record.longest_side)},
       {"grid", {{"origin", record.grid.origin}, {"voxel_size", record.grid.voxel_size}, {"size", record.grid.size}}},
+      {"region", region_json(record)},
       {"voxels",
        {{"found", record.counters.found},
         {"undecided", record.counters.undecided},
@@ -301,8 +325,9 @@ std::string report_json(const RunRecord& record) {
         {"simplified_away", record.simplified},
         {"radius", range_json(record.radii)},
         {"object_angle", range_json(record.object_angles)}}},
-      {"sheets", sheets_json(record.sheets)},
+      {"sheets", sheets_json(record.sheets, record.search)},
       {"union", union_json(record.ball_union)},
+      {"outside_union", union_json(record.outside_union)},
       {"fatness", fatness_json(record)},
       {"removal", removal_json(record)},
       {"orders", orders_json(record)},

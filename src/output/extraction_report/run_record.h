@@ -46,6 +46,16 @@ struct FatnessRecord {
   double proved_radius = 0;
 };
 
+/// Of --side: where medial points were sought.
+struct SearchRecord {
+  bool inside = true, outside = false;
+  double margin = 0;  ///< In the units of the mesh.
+  Point lower = {0, 0, 0}, upper = {0, 0, 0};
+  double longest_side = 0;          ///< Of that box: the unit of the fractions among the options.
+  std::uint64_t inside_points = 0;  ///< Of those that are written: they come first.
+  std::size_t inside_sheets = 0;    ///< As `inside_points`.
+};
+
 struct RunRecord {
   std::string input;
   std::string part;  ///< The mesh of `input`, by its name in file names; empty: all of it.
@@ -58,7 +68,8 @@ struct RunRecord {
   bool keep_inner_faces = false;
 
   MeshReport mesh;
-  double longest_side = 0;
+  double longest_side = 0;  ///< Of the mesh.
+  SearchRecord search;
   VoxelGrid grid;
   ExtractionCounters counters;
   std::vector<UndecidedVoxel> undecided;
@@ -70,8 +81,10 @@ struct RunRecord {
 
   SheetOptions sheet_options;
   Sheets sheets;
-  std::optional<UnionRecord> ball_union;         ///< None if no output depends on volumes.
-  std::optional<FatnessRecord> fatness;          ///< None without a report.
+  /// Of the balls inside, or of those outside if no others were sought; none if no output depends on volumes.
+  std::optional<UnionRecord> ball_union;
+  std::optional<UnionRecord> outside_union;      ///< Of --side both.
+  std::optional<FatnessRecord> fatness;          ///< None without a report; of the inside alone.
   std::optional<SheetRemoval> by_significance;   ///< Of --keep-volume and --sheet-curve.
   std::optional<SheetRemoval> keeping_topology;  ///< Of --keep-topology and --sheet-curve.
   double orders_end_at = 0;                      ///< Share of the volume at which both orders end.

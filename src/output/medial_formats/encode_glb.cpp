@@ -117,8 +117,9 @@ class GlbEncoder {
     const double radius = ball.radius;
     out += fmt::format(
         ",{{\"mesh\":{},\"name\":\"{}\",\"translation\":[{},{},{}],\"scale\":[{},{},{}],\"extras\":"
-        "{{\"object_angle\":{},\"sheet\":{}}}}}",
-        mesh, i, centre[0], centre[1], centre[2], radius, radius, radius, sphere.object_angle, sphere.sheet);
+        "{{\"object_angle\":{},\"sheet\":{}{}}}}}",
+        mesh, i, centre[0], centre[1], centre[2], radius, radius, radius, sphere.object_angle, sphere.sheet,
+        header_.inside_count ? fmt::format(",\"side\":\"{}\"", side_name(header_.side_of(i))) : "");
   }
 
   GltfJson instances_node(std::uint32_t mesh, const Indices& indices) {

@@ -35,9 +35,10 @@ std::string encode_json(const MedialHeader& header, std::span<const MedialSphere
     const MedialSphere& s = spheres[i];
     out += fmt::format(
         "{}{{\"centre\":{},\"radius\":{},\"spoke_a\":{},\"spoke_b\":{},\"object_angle\":{},\"flux\":{},"
-        "\"sheet\":{},\"seam\":{},\"rim\":{},\"voxel\":{}}}",
+        "\"sheet\":{},\"seam\":{},\"rim\":{},\"voxel\":{}{}}}",
         separator, triple(s.centre), s.radius, triple(s.spoke_a), triple(s.spoke_b), s.object_angle, s.flux, s.sheet,
-        (marks[i] & kSeam) != 0, (marks[i] & kRim) != 0, triple(s.voxel));
+        (marks[i] & kSeam) != 0, (marks[i] & kRim) != 0, triple(s.voxel),
+        header.inside_count ? fmt::format(",\"side\":\"{}\"", side_name(header.side_of(i))) : "");
     separator = ",\n";
   }
   return out + "\n]\n}\n";

@@ -36,6 +36,13 @@ class Arrays {
     out.add(name, "|b1", {marks.size()}, bytes);
   }
 
+  /// 0 is inside, 1 outside.
+  void sides(const MedialHeader& header) {
+    std::string bytes;
+    for (std::size_t i = 0; i < spheres_.size(); ++i) bytes += header.side_of(i) == MeshSide::kInside ? '\0' : '\1';
+    out.add("side", "|u1", {spheres_.size()}, bytes);
+  }
+
   NpzWriter out;
 
  private:
@@ -57,6 +64,7 @@ Result<std::string> encode_npz(const MedialHeader& header, std::span<const Media
   arrays.flags("seam", marks, kSeam);
   arrays.flags("rim", marks, kRim);
   arrays.column("voxel", &MedialSphere::voxel);
+  if (header.inside_count) arrays.sides(header);
   NpzWriter& out = arrays.out;
   out.text("version", header.version);
   out.numbers<double>("grid_origin", {3}, header.grid_origin);

@@ -19,7 +19,7 @@ Result<std::string> encode_points(const PointsEncoding& encoding, const MedialHe
                                   std::span<const MedialSphere> spheres, std::span<const std::uint8_t> marks) {
   switch (encoding.format) {
     case MedialFormat::kCsv:
-      return encode_csv(spheres);
+      return encode_csv(header, spheres);
     case MedialFormat::kNpz:
       return encode_npz(header, spheres, marks);
     case MedialFormat::kJson:

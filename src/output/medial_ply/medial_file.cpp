@@ -22,8 +22,10 @@ std::string ply_header(const MedialHeader& header, std::size_t points, bool asci
       "property float spoke_a_x\nproperty float spoke_a_y\nproperty float spoke_a_z\n"
       "property float spoke_b_x\nproperty float spoke_b_y\nproperty float spoke_b_z\n"
       "property float object_angle\nproperty float flux\nproperty int sheet\n"
+      "{}"
       "end_header\n",
-      ascii ? "ascii" : "binary_little_endian", ply_comments(header), points);
+      ascii ? "ascii" : "binary_little_endian", ply_comments(header), points,
+      header.inside_count ? "property uchar side\n" : "");
 }
 
 void append_binary(std::string& out, const MedialSphere& sphere) {
@@ -36,7 +38,8 @@ void append_binary(std::string& out, const MedialSphere& sphere) {
   append_little_endian(out, sphere.sheet);
 }
 
-void append_text(std::string& out, const MedialSphere& sphere, char separator) {
+/// `side`: the text of its side; null: none.
+void append_text(std::string& out, const MedialSphere& sphere, char separator, const char* side) {
   const auto number = [&](double x) { out += fmt::format("{:.17g}{}", x, separator); };
   const auto single = [&](float x) { out += fmt::format("{:.9g}{}", x, separator); };
   for (const double x : sphere.centre) number(x);
@@ -45,7 +48,9 @@ void append_text(std::string& out, const MedialSphere& sphere, char separator) {
   for (const float x : sphere.spoke_b) single(x);
   single(sphere.object_angle);
   single(sphere.flux);
-  out += fmt::format("{}\n", sphere.sheet);
+  out += fmt::format("{}", sphere.sheet);
+  if (side != nullptr) out += separator + std::string(side);
+  out += '\n';
 }
 
 }  // namespace
@@ -89,24 +94,30 @@ std::string ply_comments(const MedialHeader& header) {
 }
 
 std::string encode_ply(const MedialHeader& header, std::span<const MedialSphere> spheres, bool ascii) {
-  constexpr std::size_t kBytesPerPoint = 4 * sizeof(double) + 8 * sizeof(float) + sizeof(std::int32_t);
+  constexpr std::size_t kBytesPerPoint = 4 * sizeof(double) + 8 * sizeof(float) + sizeof(std::int32_t) + 1;
   std::string out = ply_header(header, spheres.size(), ascii);
   if (!ascii) out.reserve(out.size() + spheres.size() * kBytesPerPoint);
-  for (const MedialSphere& sphere : spheres) {
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    const MeshSide side = header.side_of(i);
     if (ascii) {
-      append_text(out, sphere, ' ');
+      append_text(out, spheres[i], ' ', !header.inside_count ? nullptr : side == MeshSide::kInside ? "0" : "1");
     } else {
-      append_binary(out, sphere);
+      append_binary(out, spheres[i]);
+      if (header.inside_count) append_little_endian(out, static_cast<std::uint8_t>(side));
     }
   }
   return out;
 }
 
-std::string encode_csv(std::span<const MedialSphere> spheres) {
-  std::string out =
-      "x,y,z,radius,spoke_a_x,spoke_a_y,spoke_a_z,spoke_b_x,spoke_b_y,spoke_b_z,object_angle,flux,sheet\n";
-  for (const MedialSphere& sphere : spheres) append_text(out, sphere, ',');
+std::string encode_csv(const MedialHeader& header, std::span<const MedialSphere> spheres) {
+  std::string out = "x,y,z,radius,spoke_a_x,spoke_a_y,spoke_a_z,spoke_b_x,spoke_b_y,spoke_b_z,object_angle,flux,sheet";
+  out += header.inside_count ? ",side\n" : "\n";
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    append_text(out, spheres[i], ',', header.inside_count ? side_name(header.side_of(i)) : nullptr);
+  }
   return out;
 }
+
+const char* side_name(MeshSide side) { return side == MeshSide::kInside ? "inside" : "outside"; }
 
 }  // namespace medial_vk

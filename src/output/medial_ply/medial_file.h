@@ -1,6 +1,8 @@
 // Medial points as bytes of a file. The layout of the PLY is a fixed contract (docs/formats.md).
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,9 +21,16 @@ struct MedialHeader {
   double epsilon = 0;           ///< Length.
   double object_angle = 0;      ///< Radians.
   double radius_threshold = 0;  ///< Length; 0: off.
+  /// Points have a property for their side of the boundary: the first so many are inside, the others outside. None:
+  /// there is no property, as all are inside.
+  std::optional<std::size_t> inside_count = {};
+
+  MeshSide side_of(std::size_t point) const {
+    return inside_count && point >= *inside_count ? MeshSide::kOutside : MeshSide::kInside;
+  }
 };
 
-/// The header of an extraction: fractions become lengths.
+/// The header of an extraction: fractions become lengths. `longest_side` is that of the box of the search.
 MedialHeader make_header(const VoxelGrid& grid, const ExtractionOptions& options, double longest_side);
 
 struct MedialFile {
@@ -44,7 +53,10 @@ std::string ply_comments(const MedialHeader& header);
 /// `ascii`: doubles have 17 significant digits and floats 9; both read back exactly.
 std::string encode_ply(const MedialHeader& header, std::span<const MedialSphere> spheres, bool ascii);
 /// One header line and one line per point; the grid is not included.
-std::string encode_csv(std::span<const MedialSphere> spheres);
+std::string encode_csv(const MedialHeader& header, std::span<const MedialSphere> spheres);
+
+/// "inside" or "outside".
+const char* side_name(MeshSide side);
 
 /// Reads the output of encode_ply(), binary or text; the voxels are computed as the contract specifies. `name` is for
 /// messages. Errors: kInvalidMesh for anything that is not a medial PLY.

@@ -19,7 +19,8 @@ namespace {
 constexpr std::string_view kProperties[] = {
     "double x",           "double y",        "double z",        "double radius",   "float spoke_a_x",
     "float spoke_a_y",    "float spoke_a_z", "float spoke_b_x", "float spoke_b_y", "float spoke_b_z",
-    "float object_angle", "float flux",      "int sheet"};
+    "float object_angle", "float flux",      "int sheet",       "uchar side"};
+constexpr std::size_t kPropertiesWithoutSide = std::size(kProperties) - 1;
 
 /// Takes lines, words and binary numbers from the front of the bytes.
 class Cursor {
@@ -119,7 +120,8 @@ bool read_header(Cursor& cursor, MedialHeader& header, Layout& layout) {
     Cursor words(*line);
     const std::string_view key = words.word();
     if (key == "end_header") {
-      return properties == std::size(kProperties) && comments == kAllComments && header.voxel_size > 0;
+      if (properties == std::size(kProperties)) header.inside_count = 0;
+      return properties >= kPropertiesWithoutSide && comments == kAllComments && header.voxel_size > 0;
     }
     if (key == "comment") {
       if (!read_comment(words, header, comments)) return false;
@@ -142,6 +144,17 @@ bool read_sphere(Cursor& cursor, bool ascii, MedialSphere& sphere) {
   const auto numbers = [&](auto& out) { return number(out[0]) && number(out[1]) && number(out[2]); };
   return numbers(sphere.centre) && number(sphere.radius) && numbers(sphere.spoke_a) && numbers(sphere.spoke_b) &&
          number(sphere.object_angle) && number(sphere.flux) && number(sphere.sheet);
+}
+
+/// 0 is inside, 1 outside, and points inside come first. True for points without a side.
+bool read_side(Cursor& cursor, bool ascii, std::size_t point, std::optional<std::size_t>& inside_count) {
+  if (!inside_count) return true;
+  int side = 0;
+  std::uint8_t byte = 0;
+  if (!(ascii ? cursor.text(side) : cursor.binary(byte))) return false;
+  if (!ascii) side = byte;
+  if (side == 0 && *inside_count == point) ++*inside_count;
+  return side == (point < *inside_count ? 0 : 1);
 }
 
 /// Contract: floor((p - grid_origin) / voxel_size). False outside any grid.
@@ -169,7 +182,9 @@ Result<MedialFile> decode_ply(std::string_view bytes, const std::string& name) {
   if (layout.points > bytes.size() / 26) return invalid(name, "fewer points than in the header");
   file.spheres.resize(static_cast<std::size_t>(layout.points));
   for (std::size_t i = 0; i < file.spheres.size(); ++i) {
-    if (!read_sphere(cursor, layout.ascii, file.spheres[i])) return invalid(name, fmt::format("point {} is broken", i));
+    const bool is_whole = read_sphere(cursor, layout.ascii, file.spheres[i]) &&
+                          read_side(cursor, layout.ascii, i, file.header.inside_count);
+    if (!is_whole) return invalid(name, fmt::format("point {} is broken", i));
     if (!place_in_voxel(file.header, file.spheres[i]))
       return invalid(name, fmt::format("point {} is outside the grid", i));
   }

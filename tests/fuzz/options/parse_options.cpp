@@ -34,6 +34,9 @@ void require_in_range(const cli::Options& options) {
   require(std::ranges::all_of(look.size, [](std::uint32_t n) { return n <= kGreatestPictureSide; }),
           "--size keeps its range");
   if (options.action != cli::Action::kExtract) return;
+  require(!options.margin || (options.margin->of(1) > 0 && options.margin->of(1) <= 1e150), "--margin keeps its range");
+  require(!options.margin || options.searches_outside(), "--margin is about the outside");
+  require(!options.searches_outside() || p.mode == Mode::kCertified, "mode thesis searches the inside");
   require(!options.mesh.empty(), "there is a mesh");
   require(!options.strokes || look.show == PictureShow::kBoundary, "strokes are on the boundary");
   const cli::MeasuresOfBoundary needed = cli::measures_of(options);

@@ -13,8 +13,8 @@
 #include "extraction/certified/certified_pipeline.h"
 #include "support/device/device.h"
 #include "support/device/device_test.h"
-#include "support/device/uploaded_mesh.h"
 #include "support/extraction.h"
+#include "support/indexed.h"
 #include "support/solids/solids.h"
 
 namespace medial_vk {
@@ -38,10 +38,9 @@ std::vector<EmbeddedShader> frozen_shaders() {
 }
 
 // The requests of an extraction from a mesh with trusted normals only, in the names of the frozen variants.
-std::set<std::string> names_requested(ContextImpl& context, const PreparedMesh& mesh,
-                                      const ExtractionOptions& options) {
-  Result<DeviceMesh> device = test::upload_mesh(context, mesh.view());
-  EXPECT_TRUE(device.ok() && device.value().add_links().ok());
+std::set<std::string> names_requested(ContextImpl& context, const IndexedMesh& mesh, const ExtractionOptions& options) {
+  Result<DeviceMesh> device = DeviceMesh::create(context, mesh, true);
+  EXPECT_TRUE(device.ok() && device.value().finish_uploads().ok());
   Result<StopWord> stop = StopWord::create(context);
   EXPECT_TRUE(stop.ok());
   const std::uint32_t n = options.resolution;
@@ -70,7 +69,9 @@ TEST_F(FrozenShadersTest, AreRequested) {
   MEDIAL_VK_SKIP_WITHOUT_DEVICE();
   Context context = test::make_context();
   if (!Internals::of(context).has_lockstep_lanes) GTEST_SKIP() << "this device takes the general kernels";
-  const std::set<std::string> requested = names_requested(Internals::of(context), mesh_, options_);
+  const IndexedMesh mesh = test::indexed(mesh_);
+  std::set<std::string> requested = names_requested(Internals::of(context), mesh, options_);
+  requested.merge(names_requested(Internals::of(context), mesh.on_side({}).value(), options_));
   ASSERT_THAT(frozen_shaders(), testing::Not(testing::IsEmpty()));
   for (const EmbeddedShader& frozen : frozen_shaders()) {
     EXPECT_TRUE(requested.contains(std::string(frozen.name))) << frozen.name << " is never used";

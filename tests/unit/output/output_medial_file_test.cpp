@@ -201,7 +201,7 @@ TEST(OutputMedialFile, ReaderRefusesNumbersThatAreNone) {
 }
 
 TEST(OutputMedialFile, CsvHasATitleAndALinePerPoint) {
-  std::istringstream csv(encode_csv(two_spheres()));
+  std::istringstream csv(encode_csv(MedialHeader(), two_spheres()));
   std::string line;
   ASSERT_TRUE(std::getline(csv, line));
   EXPECT_EQ(line, "x,y,z,radius,spoke_a_x,spoke_a_y,spoke_a_z,spoke_b_x,spoke_b_y,spoke_b_z,object_angle,flux,sheet");

@@ -201,6 +201,7 @@ Result<Extraction> extract_certified(ContextImpl& context, DeviceMesh& mesh, con
   if (!stop.ok()) return stop.error();
   Extraction extraction;
   extraction.grid = make_grid(mesh, options.resolution);
+  extraction.side = mesh.side;
   auto pipeline = CertifiedPipeline::create(context, mesh, options, extraction.grid.size, *stop.value());
   if (!pipeline.ok()) return pipeline.error();
   extraction.measurements.counters.levels.resize(pipeline.value().level_count());

@@ -338,7 +338,8 @@ void CertifiedPipeline::scan(Recorder& r, const gpu::ScanConstants& constants) {
 CertifiedPipeline::Kernel CertifiedPipeline::side_kernel(const char* shader, std::vector<BufferRange> buffers) const {
   buffers.insert(buffers.begin(), {mesh_->storage_of(mesh_->triangles), mesh_->storage_of(mesh_->tree)});
   buffers.push_back(mesh_->open_edges.range());
-  return {shader, std::move(buffers), Reads::kTree, {mesh_->open_edge_count > 0 ? 1u : 0u}};
+  const uint far_number = mesh_->side == MeshSide::kOutside ? 1 : 0;
+  return {shader, std::move(buffers), Reads::kTree, {mesh_->open_edge_count > 0 ? 1u : 0u, far_number}};
 }
 
 void CertifiedPipeline::judge_pairs(Recorder& r, gpu::StepConstants step, const LevelBuffers& level,

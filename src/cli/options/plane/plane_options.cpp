@@ -27,17 +27,6 @@ std::string default_plane_output(const std::string& shape) {
   return (shape == "-" ? std::string("stdin") : std::filesystem::path(shape).stem().string()) + ".axis.json";
 }
 
-Result<PlaneLength> parse_length(const std::string& text) {
-  if (!text.ends_with('%')) {
-    const Result<double> value = parse_real(text, {0, kGreatestPlaneLength, true}, " (units of the shape)");
-    if (!value) return value.error();
-    return PlaneLength{value.value(), false};
-  }
-  const Result<double> percent = parse_real(text.substr(0, text.size() - 1), {0, 1000, true}, " % of the longest side");
-  if (!percent) return percent.error();
-  return PlaneLength{percent.value() / 100, true};
-}
-
 void declare_plane(CLI::App& app, PlaneCommandOptions& options, LengthTexts& lengths) {
   Declarations add(app);
   add.text("SHAPE", "file", options.shape);
@@ -84,7 +73,7 @@ Status take_lengths(const LengthTexts& texts, PlaneCommandOptions& options) {
                        {"--step", texts.step, options.step}};
   for (const Given& given : all) {
     if (given.text.empty()) continue;
-    const Result<PlaneLength> length = parse_length(given.text);
+    const Result<PlaneLength> length = parse_length(given.text, kGreatestPlaneLength, " (units of the shape)");
     if (!length) return usage_error(fmt::format("{}: {}", given.option, length.error().message));
     given.length = length.value();
   }

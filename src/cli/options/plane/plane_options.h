@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/options/output_names.h"
+#include "cli/options/parse_number.h"
 #include "medial_vk/plane_axis.h"
 #include "medial_vk/result.h"
 #include "output/plane_files/plane_record.h"
@@ -18,14 +19,8 @@ enum class PlaneFormat { kJson, kGeoJson, kSvg, kCsv };
 
 enum class PlaneMode { kCertified, kThesis };
 
-/// "2.5", in units of the shape, or "3%", of its longest side.
-struct PlaneLength {
-  double value = 0;  ///< A length, or a share: 0.03.
-  bool is_share = false;
-
-  double of(double longest_side) const { return is_share ? value * longest_side : value; }
-  bool operator==(const PlaneLength&) const = default;
-};
+/// In units of the shape, or a share of its longest side.
+using PlaneLength = Length;
 
 struct PlaneCommandOptions {
   bool help = false;

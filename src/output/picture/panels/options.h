@@ -35,7 +35,8 @@ struct PictureOptions {
   PictureView view = {};
   PictureShow show = PictureShow::kPoints;
   PictureColour colour = PictureColour::kAngle;
-  double least_angle = 0.6;  ///< Object angle at the lower end of the colours, radians; the upper end is pi/2.
+  bool frame_points = false;  ///< The picture shows all centres, not the mesh alone.
+  double least_angle = 0.6;   ///< Object angle at the lower end of the colours, radians; the upper end is pi/2.
 
   bool operator==(const PictureOptions&) const = default;
 };

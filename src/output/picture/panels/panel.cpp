@@ -294,13 +294,13 @@ std::vector<Panel> panels_of(PictureShow show, std::uint32_t width) {
 }
 
 std::vector<Mark> panel_balls(const Scene& scene, const Panel& panel, const PictureView& view, const Picture& picture) {
-  const Camera camera(scene.mesh.positions, view, frame_of(panel, picture, 1));
+  const Camera camera(scene.in_frame(), view, frame_of(panel, picture, 1));
   return seen_balls(scene.balls, camera, panel.width, picture.height);
 }
 
 void draw_panel(const Scene& scene, const Panel& panel, const PictureView& view, Picture& picture,
                 std::uint64_t samples_at_once) {
-  const Camera camera(scene.mesh.positions, view, frame_of(panel, picture, kCpuSamples));
+  const Camera camera(scene.in_frame(), view, frame_of(panel, picture, kCpuSamples));
   const bool has_balls = panel.balls || panel.in_glass;
   const std::vector<Mark> balls = has_balls ? panel_balls(scene, panel, view, picture) : std::vector<Mark>();
   const std::uint64_t samples_of_row = std::uint64_t{kCpuSamples} * kCpuSamples * panel.width;

@@ -138,10 +138,17 @@ Mark make_mark(const Mesh& mesh, const Point& centre, double radius, std::size_t
 
 Scene make_scene(const Mesh& mesh, std::span<const MedialSphere> spheres, double voxel_size,
                  const PictureOptions& options) {
-  const Placement placement(mesh.vertices);
+  std::vector<Point> shown = mesh.vertices;
+  if (options.frame_points) {
+    for (const MedialSphere& sphere : spheres) shown.push_back(sphere.centre);
+  }
+  const Placement placement(shown);
   const Scale scale(spheres, options);
   Scene scene;
   scene.mesh = make_surface(mesh, placement);
+  if (shown.size() > mesh.vertices.size()) {
+    for (const Point& p : shown) scene.framed.push_back(placement.point(p));
+  }
   for (const MedialSphere& sphere : spheres) {
     Mark mark = {
         placement.point(sphere.centre), placement.length(sphere.radius), sheet_normal(sphere), scale.value(sphere), {}};

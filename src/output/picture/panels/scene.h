@@ -53,9 +53,12 @@ struct Scene {
   Surface mesh;
   Painted painted = {};  // The mesh in colours, opaque, and what is drawn on it. The CPU alone draws it.
   std::vector<Mark> discs, balls;
-  std::vector<Mark> on_top = {};         // Points that show through everything. The CPU alone draws them.
-  std::vector<Eigen::Vector3f> palette;  // sRGB.
+  std::vector<Eigen::Vector3f> framed = {};  // What fills the picture; empty: the mesh.
+  std::vector<Mark> on_top = {};             // Points that show through everything. The CPU alone draws them.
+  std::vector<Eigen::Vector3f> palette;      // sRGB.
   Legend legend;
+
+  std::span<const Eigen::Vector3f> in_frame() const { return framed.empty() ? mesh.positions : framed; }
 };
 
 Eigen::AlignedBox3d box_of(const Mesh& mesh);

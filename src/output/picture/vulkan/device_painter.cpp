@@ -57,7 +57,7 @@ class DevicePainter::Impl {
   void draw(const Scene& scene, std::span<const Panel> panels, const PictureView& view, Picture& picture) {
     const SceneBuffers buffers = upload_scene(scene);
     for (const Panel& panel : panels) {
-      const Camera camera(scene.mesh.positions, view, frame_of(panel, picture, samples_));
+      const Camera camera(scene.in_frame(), view, frame_of(panel, picture, samples_));
       const std::vector<Mark> marks = panel.balls ? panel_balls(scene, panel, view, picture) : scene.discs;
       write_set(upload_marks(device_, marks), buffers.palette);
       for (std::uint32_t top = 0; top < picture.height; top += tile_.height) {
