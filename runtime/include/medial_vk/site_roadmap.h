@@ -50,9 +50,9 @@ class SiteRoadmap {
   const std::vector<std::uint32_t>& component_of_point() const;
   std::uint32_t components() const;
 
-  /// A path on the graph whose width is the greatest, from and to any place: the lines from a place to the graph are
-  /// chosen among the points around it. None: no such lines are found, or both ends are in different components.
-  /// Errors: kUsage (a place that is not finite, inside of a solid or on a site), kOutOfMemory.
+  /// Of the paths on the graph with the greatest width, the shortest, from and to any place: the lines from a place to
+  /// the graph are chosen among the points around it. None: no such lines are found, or both ends are in different
+  /// components. Errors: kUsage (a place that is not finite, inside of a solid or on a site), kOutOfMemory.
   Result<std::optional<SitePath>> widest_path(const Point& from, const Point& to) const;
 
  private:

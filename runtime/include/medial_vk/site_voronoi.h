@@ -84,10 +84,12 @@ struct SiteVoronoi {
   std::vector<SitePiece> pieces;  ///< In the order of their first faces.
   /// In the order of voxels: neither a point was found, nor a proof that there is none.
   std::vector<std::array<std::uint32_t, 3>> undecided;
-  /// Voxels where only points were found whose contacts on both sites are the same, as where sites share a point.
-  std::uint64_t tied = 0;
-  /// Voxels where only points were found that are inside of a solid: sites overlap.
-  std::uint64_t overlapping = 0;
+  /// Voxels, in that order, where only points were found whose contacts on both sites are the same, as where sites
+  /// share a point, or that are on a site up to rounding.
+  std::vector<std::array<std::uint32_t, 3>> tied;
+  /// Voxels, in that order, where only points were found that are inside of a solid: sites overlap, or have faces in
+  /// common.
+  std::vector<std::array<std::uint32_t, 3>> overlapping;
   std::vector<std::array<std::uint32_t, 2>> overlaps;  ///< Pairs of such points, ascending, in order.
   std::uint64_t cells = 0;                             ///< Examined, voxels and smaller ones included.
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <queue>
 #include <utility>
 
@@ -109,46 +111,50 @@ void join_place(const SiteForest& forest, double rounding, const std::vector<Cle
   }
 }
 
-/// A tree of widest joins holds a widest path between any two places (Hu 1961).
-std::vector<std::vector<std::uint32_t>> widest_tree(std::vector<Join>& joins, std::uint32_t count) {
+/// The greatest width of a path between two places, 0 if there is none: joins are added from the widest on until both
+/// are connected, which is at the last join of a widest path (Kruskal's algorithm; Hu 1961). Sorts the joins.
+double greatest_width(std::vector<Join>& joins, std::uint32_t count, std::uint32_t first, std::uint32_t last) {
   std::ranges::stable_sort(joins, [](const Join& a, const Join& b) { return a.width > b.width; });
   DisjointSets sets(count);
+  for (const Join& join : joins) {
+    sets.join(join.from, join.to);
+    if (sets.of(first) == sets.of(last)) return join.width;
+  }
+  return 0;
+}
+
+/// The shortest of the ways that are at least so wide (Dijkstra 1959), the last place first. `length_of(join)`.
+template <class Length>
+std::vector<std::uint32_t> shortest_way(const std::vector<Join>& joins, std::uint32_t count, std::uint32_t first,
+                                        std::uint32_t last, double width, const Length& length_of) {
   std::vector<std::vector<std::uint32_t>> joins_of(count);
-  for (std::uint32_t j = 0; j < joins.size(); ++j) {
-    if (!sets.join(joins[j].from, joins[j].to)) continue;
+  for (std::uint32_t j = 0; j < joins.size() && joins[j].width >= width; ++j) {
     joins_of[joins[j].from].push_back(j);
     joins_of[joins[j].to].push_back(j);
   }
-  return joins_of;
-}
-
-/// The places from the first to the last on the tree; empty: they are not connected.
-std::vector<std::uint32_t> way_on(const std::vector<Join>& joins,
-                                  const std::vector<std::vector<std::uint32_t>>& joins_of, std::uint32_t first,
-                                  std::uint32_t last, double& width) {
-  std::vector<std::uint32_t> join_to(joins_of.size(), SitePath::kNoPoint);  // away from the last place
-  std::queue<std::uint32_t> open;
-  open.push(last);
-  std::vector<bool> is_reached(joins_of.size());
-  is_reached[last] = true;
-  for (; !open.empty() && !is_reached[first]; open.pop()) {
-    for (const std::uint32_t j : joins_of[open.front()]) {
-      const std::uint32_t next = joins[j].from == open.front() ? joins[j].to : joins[j].from;
-      if (is_reached[next]) continue;
-      is_reached[next] = true;
-      join_to[next] = j;
-      open.push(next);
+  using Reached = std::pair<double, std::uint32_t>;
+  std::priority_queue<Reached, std::vector<Reached>, std::greater<>> open;
+  std::vector<double> way(count, std::numeric_limits<double>::infinity());
+  std::vector<std::uint32_t> before(count, SitePath::kNoPoint);
+  way[first] = 0;
+  open.push({0, first});
+  while (!open.empty()) {
+    const auto [reached, place] = open.top();
+    open.pop();
+    if (place == last) break;
+    if (reached > way[place]) continue;
+    for (const std::uint32_t j : joins_of[place]) {
+      const std::uint32_t next = joins[j].from == place ? joins[j].to : joins[j].from;
+      const double through = reached + length_of(joins[j]);
+      if (!(through < way[next])) continue;
+      way[next] = through;
+      before[next] = place;
+      open.push({through, next});
     }
   }
-  std::vector<std::uint32_t> way;
-  if (!is_reached[first]) return way;
-  way.push_back(first);
-  while (way.back() != last) {
-    const Join& join = joins[join_to[way.back()]];
-    width = std::min(width, join.width);
-    way.push_back(join.from == way.back() ? join.to : join.from);
-  }
-  return way;
+  std::vector<std::uint32_t> places = {last};
+  while (places.back() != first) places.push_back(before[places.back()]);
+  return places;
 }
 
 }  // namespace
@@ -211,12 +217,16 @@ Result<std::optional<SitePath>> SiteRoadmap::widest_path(const Point& from, cons
     const double direct = clearance_of_line(impl_->forest, rounding, ends[0], ends[1]);
     if (direct > 0) joins.push_back({count, count + 1, direct});
     SitePath path;
-    path.width = std::min(ends[0].clearance, ends[1].clearance);
-    const auto tree = widest_tree(joins, count + 2);
-    const std::vector<std::uint32_t> way = way_on(joins, tree, count, count + 1, path.width);
-    if (way.empty()) return std::optional<SitePath>();
+    const double widest = greatest_width(joins, count + 2, count, count + 1);
+    if (!(widest > 0)) return std::optional<SitePath>();
+    const auto place = [&](std::uint32_t i) { return i < count ? impl_->places[i].at : ends[i - count].at; };
+    std::vector<std::uint32_t> way = shortest_way(joins, count + 2, count, count + 1, widest, [&](const Join& join) {
+      return length(place(join.from) - place(join.to));
+    });
+    std::ranges::reverse(way);
+    path.width = std::min({widest, ends[0].clearance, ends[1].clearance});
     for (const std::uint32_t i : way) {
-      path.line.push_back(i < count ? impl_->places[i].at : ends[i - count].at);
+      path.line.push_back(place(i));
       path.points.push_back(i < count ? i : SitePath::kNoPoint);
       if (path.line.size() > 1) path.length += length(path.line.back() - path.line[path.line.size() - 2]);
     }

@@ -52,23 +52,25 @@ Result<SiteGrid> grid_around(const BvhBox& box, const SiteVoronoiOptions& option
 
 class Collector {
  public:
-  void add(TileFindings tile) {
+  void add(const TileFindings& tile) {
     const std::lock_guard lock(mutex_);
     const auto append = [](auto& all, const auto& more) { all.insert(all.end(), more.begin(), more.end()); };
     append(points_, tile.points);
     append(edges_, tile.edges);
     append(voronoi_.undecided, tile.undecided);
+    append(voronoi_.tied, tile.tied);
+    append(voronoi_.overlapping, tile.overlapping);
     append(voronoi_.overlaps, tile.overlaps);
     std::ranges::sort(voronoi_.overlaps);
     voronoi_.overlaps.erase(std::unique(voronoi_.overlaps.begin(), voronoi_.overlaps.end()), voronoi_.overlaps.end());
-    voronoi_.tied += tile.tied;
-    voronoi_.overlapping += tile.overlapping;
     voronoi_.cells += tile.cells;
   }
 
   SiteVoronoi finish(const SiteGrid& grid) {
     voronoi_.grid = grid;
-    std::ranges::sort(voronoi_.undecided, is_earlier_voxel);
+    for (auto* const voxels : {&voronoi_.undecided, &voronoi_.tied, &voronoi_.overlapping}) {
+      std::ranges::sort(*voxels, is_earlier_voxel);
+    }
     make_surface(std::move(points_), std::move(edges_), voronoi_);
     return std::move(voronoi_);
   }

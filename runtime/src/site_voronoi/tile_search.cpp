@@ -70,10 +70,10 @@ void TileSearch::search_voxel(const CellRange& sites, const SiteCell& cell, cons
       found_.undecided.push_back(voxel);
       break;
     case VoxelOutcome::kTied:
-      ++found_.tied;
+      found_.tied.push_back(voxel);
       break;
     case VoxelOutcome::kOverlapping:
-      ++found_.overlapping;
+      found_.overlapping.push_back(voxel);
       break;
     case VoxelOutcome::kEmpty:
       break;

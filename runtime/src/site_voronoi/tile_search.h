@@ -19,9 +19,9 @@ struct GridEdge {
 struct TileFindings {
   std::vector<SitePoint> points;
   std::vector<GridEdge> edges;
-  std::vector<std::array<std::uint32_t, 3>> undecided;
+  std::vector<std::array<std::uint32_t, 3>> undecided, tied, overlapping;
   std::vector<std::array<std::uint32_t, 2>> overlaps;
-  std::uint64_t tied = 0, overlapping = 0, cells = 0;
+  std::uint64_t cells = 0;
 };
 
 class TileSearch {

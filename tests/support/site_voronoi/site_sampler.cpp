@@ -71,9 +71,12 @@ std::optional<SiteSample> SiteSampler::next() {
 }
 
 SampledVoxels::SampledVoxels(const SiteVoronoi& voronoi)
-    : grid_(voronoi.grid), marks_(std::size_t{grid_.size[0]} * grid_.size[1] * grid_.size[2]) {
-  for (const SitePoint& point : voronoi.points) marks_[index_of(grid_, point.voxel)] = 1;
-  for (const auto& voxel : voronoi.undecided) marks_[index_of(grid_, voxel)] = 2;
+    : grid_(voronoi.grid), states_(std::size_t{grid_.size[0]} * grid_.size[1] * grid_.size[2]) {
+  for (const SitePoint& point : voronoi.points) states_[index_of(grid_, point.voxel)] = SampleState::kFound;
+  for (const auto& voxel : voronoi.undecided) states_[index_of(grid_, voxel)] = SampleState::kUndecided;
+  for (const auto* const voxels : {&voronoi.tied, &voronoi.overlapping}) {
+    for (const auto& voxel : *voxels) states_[index_of(grid_, voxel)] = SampleState::kLeftOut;
+  }
 }
 
 SampleState SampledVoxels::state_of(const SiteSample& sample) const {
@@ -82,8 +85,7 @@ SampleState SampledVoxels::state_of(const SiteSample& sample) const {
     const double at = std::floor((sample.point[k] - grid_.origin[k]) / grid_.side);
     voxel[k] = static_cast<std::uint32_t>(std::clamp(at, 0.0, grid_.size[k] - 1.0));
   }
-  const std::uint8_t mark = marks_[index_of(grid_, voxel)];
-  return mark == 1 ? SampleState::kFound : mark == 2 ? SampleState::kUndecided : SampleState::kLost;
+  return states_[index_of(grid_, voxel)];
 }
 
 }  // namespace medial_vk::test

@@ -41,7 +41,8 @@ class SiteSampler {
   std::mt19937_64 random_;
 };
 
-enum class SampleState : std::uint8_t { kFound, kUndecided, kLost };
+/// Left out: only points were found that are none of the surface.
+enum class SampleState : std::uint8_t { kLost, kFound, kUndecided, kLeftOut };
 
 /// By the voxel that holds the sample.
 class SampledVoxels {
@@ -52,7 +53,7 @@ class SampledVoxels {
 
  private:
   const SiteGrid grid_;
-  std::vector<std::uint8_t> marks_;
+  std::vector<SampleState> states_;
 };
 
 }  // namespace medial_vk::test

@@ -85,7 +85,7 @@ TEST(SiteInputs, PointsInsideOfSolidsAreNone) {
   const Result<SiteVoronoi> found = find_at(nested, 20);
   ASSERT_TRUE(found.ok());
   EXPECT_TRUE(found.value().points.empty());
-  EXPECT_GT(found.value().overlapping, 100u);
+  EXPECT_GT(found.value().overlapping.size(), 100u);
   ASSERT_EQ(found.value().overlaps.size(), 1u);
   EXPECT_EQ(found.value().overlaps[0], (std::array<std::uint32_t, 2>{0, 1}));
   // As surfaces, they have one between them.
@@ -123,7 +123,7 @@ TEST(SiteInputs, WhereSitesShareAPointItIsNoContactOfTwo) {
   const std::vector<VoronoiSite> sites = {site_of_segment({0, 0, 0}, {1, 0, 0}), site_of_segment({0, 0, 0}, {0, 1, 0})};
   const Result<SiteVoronoi> found = find_at(sites, 40);
   ASSERT_TRUE(found.ok());
-  EXPECT_GT(found.value().tied, 0u);
+  EXPECT_GT(found.value().tied.size(), 0u);
   EXPECT_GT(found.value().points.size(), 100u);
   for (const SitePoint& p : found.value().points) {
     EXPECT_NEAR(p.point[0], p.point[1], 1e-12);

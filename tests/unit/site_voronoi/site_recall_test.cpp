@@ -59,20 +59,7 @@ TEST_P(SiteArrangements, NoSampleIsLost) {
   std::size_t samples = 0, undecided = 0;
   for (int i = 0; i < 4000; ++i) {
     const std::optional<SiteSample> sample = sampler.next();
-    // Where solids overlap, points inside are none of the surface, and voxels that the boundary passes may hold either.
-    const bool has_overlaps = !voronoi_.overlaps.empty();
     if (!sample || sample->object_angle < 0x1p-12) continue;
-    if (has_overlaps && sample->distance < 2 * voronoi_.grid.side) continue;
-    if (has_overlaps && std::ranges::any_of(arrangement_.sites, [&](const VoronoiSite& site) {
-          if (!site.mesh) return false;
-          const MeshReport& box = site.mesh->prepared().report;
-          return std::ranges::all_of(std::array{0, 1, 2}, [&](int k) {
-            const auto axis = static_cast<std::size_t>(k);
-            return sample->point[axis] > box.lower[axis] && sample->point[axis] < box.upper[axis];
-          });
-        })) {
-      continue;
-    }
     ++samples;
     const SampleState state = voxels.state_of(*sample);
     EXPECT_NE(state, SampleState::kLost) << arrangement_.name << " at " << sample->point[0] << ' ' << sample->point[1]
