@@ -1,6 +1,6 @@
 // Which part of the surface between sites has points: random samples of it against the voxels of points, for ten
 // arrangements, with times.
-//   bench_sites_recall [--samples N] [--resolution N] [--detail N]
+//   bench_sites_recall [--samples N] [--resolution N] [--detail N] [--first N]
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -51,14 +51,16 @@ void measure(const test::SiteArrangement& arrangement, std::uint32_t resolution,
 
 int main(int argc, char** argv) {
   CLI::App app("Recall of the surface between sites");
-  std::uint32_t samples = 100000, resolution = 160, detail = 64;
+  std::uint32_t samples = 100000, resolution = 160, detail = 64, first = 0;
   app.add_option("--samples", samples, "of each arrangement");
   app.add_option("--resolution", resolution, "voxels along the longest side");
   app.add_option("--detail", detail, "edges around round meshes");
+  app.add_option("--first", first, "arrangement, from 0, to begin with");
   CLI11_PARSE(app, argc, argv);
   fmt::print(
       "| arrangement | points | undecided voxels | samples found | undecided | left out | lost | CPU seconds | "
       "microseconds a point |\n|---|---|---|---|---|---|---|---|---|\n");
-  for (const auto& arrangement : test::site_arrangements(detail)) measure(arrangement, resolution, samples);
+  const std::vector<test::SiteArrangement> all = test::site_arrangements(detail);
+  for (std::size_t i = first; i < all.size(); ++i) measure(all[i], resolution, samples);
   return 0;
 }

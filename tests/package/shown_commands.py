@@ -187,6 +187,7 @@ class Folder:
         self.call(["make_model", "part.obj", "52"])
         for name, lift in (("bent.obj", lambda x, z: x * x / 4), ("twisted.obj", lambda x, z: x * z / 4)):
             self.write_moved("part.obj", name, lift)
+        self.write_moved("part.obj", "other.obj", lambda x, z: 3)
         for frame in range(3):
             self.write_moved("part.obj", f"walk_{frame:04d}.obj", lambda x, z: frame * x * x / 8)
         corners, triangles, lines = [], [], ["solid part"]

@@ -12,7 +12,7 @@ constexpr unsigned kMostSteps = 12;      // of Newton's method, which needs two 
 constexpr unsigned kMostHalvings = 200;  // a secant between doubles needs few
 constexpr unsigned kSubdivisions = 6;    // of a voxel
 constexpr unsigned kSubdivisionsIfRejected = 2;
-constexpr std::uint32_t kMostCells = 20000;  // of one voxel
+constexpr std::uint32_t kMostCells = 4000;  // of one voxel
 constexpr double kLeastObjectAngle = 0x1p-13;
 constexpr double kLeastRoundings = 0x1p17;  // of the distance: directions are known within the angle above then
 
@@ -49,12 +49,16 @@ VoxelOutcome PointSearch::search(const CellRange& sites, const SiteCell& voxel,
   cells_ = 0;
   stack_.recall(sites, distances_);
   reference_label_ = distances_.front().site;
+  const double clear = distances_.front().distance;
   Found found = from_measured(sites, voxel.middle);
-  if (found != Found::kYes && (found == Found::kNo || !rejected_tied_)) found = between_corners(sites, labels);
+  if (found == Found::kNo) found = between_corners(sites, labels);
   if (found == Found::kYes) {
     improve(sites);
     return VoxelOutcome::kPoint;
   }
+  // Without a boundary in it, the voxel is inside of a solid as a whole where one of its points is.
+  const bool has_boundary = clear <= std::sqrt(3.0) * voxel.half + 4 * stack_.rounding();
+  if (rejected_overlapping_ && !has_boundary) return VoxelOutcome::kOverlapping;
   VoxelOutcome outcome = subdivide(sites, voxel, 0);
   if (outcome == VoxelOutcome::kPoint) improve(sites);
   if (outcome == VoxelOutcome::kUndecided && (rejected_tied_ || rejected_overlapping_)) {

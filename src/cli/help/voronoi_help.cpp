@@ -13,9 +13,9 @@ Usage:
   medial-vk voronoi [options] SHAPE SHAPE ...   .svg, .geojson, .wkt or .csv
 
 Examples:
-  medial-vk voronoi part.stl turtle.obj          writes part.voronoi.ply here
+  medial-vk voronoi part.stl other.obj          writes part.voronoi.ply here
   medial-vk voronoi part.stl --point 0,0,9 -o v.obj --picture v.png
-  medial-vk voronoi part.stl turtle.obj --roadmap map.json --from 9,0,0 --to 0,0,9
+  medial-vk voronoi part.stl other.obj --roadmap map.json -q
   medial-vk voronoi letter.svg ring.svg -o curves.svg
 
 Sites (numbered in this order: files, points, segments, triangles):
@@ -24,11 +24,11 @@ Sites (numbered in this order: files, points, segments, triangles):
                         a segment between two points
       --triangle X,Y,Z,X,Y,Z,X,Y,Z
                         a triangle
-      --split           the parts of a scene, or the connected parts of any other
-                        mesh, are sites of their own
+      --split           the parts of a scene, or the connected parts of any
+                        other mesh, are sites of their own
 
-A closed mesh is a solid, and its inside belongs to it. Where solids overlap, the
-surface is outside of both.
+A closed mesh is a solid, and its inside belongs to it. Where solids overlap,
+the surface is outside of both.
 
 What is searched:
       --resolution N    voxels along the longest side of the box, 1 to 2048; at
