@@ -33,7 +33,7 @@ if(TARGET medial-vk)
     ${PROJECT_SOURCE_DIR}/docs/medial-vk-clearance.1 ${PROJECT_SOURCE_DIR}/docs/medial-vk-curvature.1
     ${PROJECT_SOURCE_DIR}/docs/medial-vk-distance.1
     ${PROJECT_SOURCE_DIR}/docs/medial-vk-doctor.1 ${PROJECT_SOURCE_DIR}/docs/medial-vk-follow.1
-    ${PROJECT_SOURCE_DIR}/docs/medial-vk-plane.1
+    ${PROJECT_SOURCE_DIR}/docs/medial-vk-plane.1 ${PROJECT_SOURCE_DIR}/docs/medial-vk-voronoi.1
     DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 endif()
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -18,6 +18,7 @@
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/messages.h"
 #include "cli/terminal/tables.h"
+#include "cli/voronoi/run_voronoi.h"
 #include "medial_vk/context.h"
 #include "medial_vk/version.h"
 
@@ -54,6 +55,7 @@ Command command_of(const std::vector<std::string>& arguments) {
   if (arguments[0] == "follow") return Command::kFollow;
   if (arguments[0] == "curvature") return Command::kCurvature;
   if (arguments[0] == "plane") return Command::kPlane;
+  if (arguments[0] == "voronoi") return Command::kVoronoi;
   return arguments[0] == "doctor" ? Command::kDoctor : Command::kExtract;
 }
 
@@ -64,6 +66,7 @@ Status parse_and_run(Command command, const std::vector<std::string>& arguments)
   if (command == Command::kFollow) return run_follow({arguments.begin() + 1, arguments.end()});
   if (command == Command::kCurvature) return run_curvature({arguments.begin() + 1, arguments.end()});
   if (command == Command::kPlane) return run_plane({arguments.begin() + 1, arguments.end()});
+  if (command == Command::kVoronoi) return run_voronoi({arguments.begin() + 1, arguments.end()});
   if (command == Command::kDoctor) return run_doctor({arguments.begin() + 1, arguments.end()});
   const Result<Options> options = parse_options(arguments);
   if (!options) return options.error();

@@ -40,6 +40,7 @@ NOT_RUN = {
     r"medial-vk follow( REST FRAME...)?$": "names the command; a run of it has meshes",
     r"medial-vk curvature( BALLS)?$": "names the command; a run of it has balls",
     r"medial-vk plane( SHAPE)?$": "names the command; a run of it has a shape",
+    r"medial-vk voronoi( SITE SITE)?$": "names the command; a run of it has sites",
     r"medial-vk VERSION": "is not a command but a comment of the PLY",
     r"medial-vk out/torus.ply": "needs a mesh of 5,000,000 triangles",
     r"yes \| medial-vk": "reads 4 GiB",
@@ -74,7 +75,7 @@ def shown(source, programs):
     """All commands, as pairs of document and command."""
     documents = [source / "README.md", *sorted((source / "docs").glob("*.md"))]
     found = [(d.name, command) for d in documents for command in commands_of_markdown(d.read_text())]
-    for words in ([], ["spheres"], ["distance"], ["clearance"], ["follow"], ["curvature"], ["plane"], ["doctor"]):
+    for words in ([], ["spheres"], ["distance"], ["clearance"], ["follow"], ["curvature"], ["plane"], ["voronoi"], ["doctor"]):
         text = subprocess.run([programs["medial-vk"], *words, "--help"], check=True, capture_output=True, text=True).stdout
         found += [(" ".join([*words, "--help"]), command) for command in commands_of_help(text)]
     for page in sorted((source / "docs").glob("*.1")):
@@ -105,6 +106,11 @@ def outputs_of(words):
     if arguments[:1] == ["plane"]:
         is_named = {"-o", "--output", "--help"} & set(arguments)
         return files if is_named else [*files, pathlib.Path(arguments[1]).stem + ".axis.json"]
+    if arguments[:1] == ["voronoi"]:
+        files += [b for a, b in zip(arguments, arguments[1:]) if a == "--roadmap"]
+        is_named = {"-o", "--output", "--help"} & set(arguments)
+        ending = ".voronoi.json" if arguments[1:2] and arguments[1].endswith(".svg") else ".voronoi.ply"
+        return files if is_named else [*files, pathlib.Path(arguments[1]).stem + ending]
     meshes = [a for a in arguments if re.search(r"\.(obj|stl|ply)$", a) and a not in files]
     if arguments[:1] == ["spheres"]:
         robots = [a for a in arguments if a.endswith(".urdf") and a not in files]
@@ -169,6 +175,8 @@ class Folder:
         (self.path / "joints.csv").write_text("joint1,joint2,joint3,joint4,joint5,joint6\n0,0,0,0,0,0\n0.5,1,-1,0.25,0,1\n")
         (self.path / "letter.svg").write_text('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 20 24">'
                                               '<path d="M2 2h4v8h8v-8h4v20h-4v-8q-4 2-8 0v8h-4z"/></svg>')
+        (self.path / "ring.svg").write_text('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 60 24">'
+                                            '<circle cx="40" cy="12" r="8"/></svg>')
         self.call(["make_arm.py", "."])
         shutil.copytree(self.path / "robot_arm/meshes", self.path / "meshes")
         for name in ("arm.urdf", "robot.urdf"):
@@ -179,6 +187,7 @@ class Folder:
         self.call(["make_model", "part.obj", "52"])
         for name, lift in (("bent.obj", lambda x, z: x * x / 4), ("twisted.obj", lambda x, z: x * z / 4)):
             self.write_moved("part.obj", name, lift)
+        self.write_moved("part.obj", "other.obj", lambda x, z: 3)
         for frame in range(3):
             self.write_moved("part.obj", f"walk_{frame:04d}.obj", lambda x, z: frame * x * x / 8)
         corners, triangles, lines = [], [], ["solid part"]

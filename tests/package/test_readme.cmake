@@ -1,7 +1,7 @@
 # README.md shows the marked part of examples/embed.cpp, word for word, and has its sections in order: sentence, picture,
 # command, output, program, results, limits. It and the manual page name the very options that --help lists; so do the pages of
 # `medial-vk spheres`, `medial-vk distance`, `medial-vk clearance`, `medial-vk curvature`,
-# `medial-vk plane` and `medial-vk doctor`.
+# `medial-vk plane`, `medial-vk voronoi` and `medial-vk doctor`.
 # Needs: SOURCE_DIR MEDIAL_VK
 cmake_minimum_required(VERSION 3.25)
 file(READ ${SOURCE_DIR}/examples/embed.cpp example)
@@ -39,6 +39,8 @@ file(READ ${SOURCE_DIR}/docs/medial-vk-curvature.1 curvature_page)
 string(REPLACE "\\-" "-" curvature_page "${curvature_page}")
 file(READ ${SOURCE_DIR}/docs/medial-vk-plane.1 plane_page)
 string(REPLACE "\\-" "-" plane_page "${plane_page}")
+file(READ ${SOURCE_DIR}/docs/medial-vk-voronoi.1 voronoi_page)
+string(REPLACE "\\-" "-" voronoi_page "${voronoi_page}")
 file(READ ${SOURCE_DIR}/docs/medial-vk-doctor.1 doctor_page)
 string(REPLACE "\\-" "-" doctor_page "${doctor_page}")
 
@@ -68,4 +70,5 @@ compare_options(docs/medial-vk-clearance.1 "${clearance_page}" clearance)
 compare_options(docs/medial-vk-follow.1 "${follow_page}" follow)
 compare_options(docs/medial-vk-curvature.1 "${curvature_page}" curvature)
 compare_options(docs/medial-vk-plane.1 "${plane_page}" plane)
+compare_options(docs/medial-vk-voronoi.1 "${voronoi_page}" voronoi)
 compare_options(docs/medial-vk-doctor.1 "${doctor_page}" doctor)

@@ -44,6 +44,8 @@
 #include "medial_vk/sheets.h"
 #include "medial_vk/shrinking_union.h"
 #include "medial_vk/significance.h"
+#include "medial_vk/site_roadmap.h"
+#include "medial_vk/site_voronoi.h"
 #include "medial_vk/sphere_fits.h"
 #include "medial_vk/sphere_measures.h"
 #include "medial_vk/sphere_proofs.h"

@@ -15,6 +15,7 @@ std::string clearance_help_text();
 std::string follow_help_text();
 std::string curvature_help_text();
 std::string plane_help_text();
+std::string voronoi_help_text();
 std::string doctor_help_text();
 
 }  // namespace medial_vk::cli

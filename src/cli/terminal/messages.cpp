@@ -17,6 +17,11 @@ constexpr ParameterWords same(std::string_view parameter, std::string_view words
 /// Of calls that the tool does not make, or not with values that can be at fault.
 constexpr ParameterWords library_only(std::string_view parameter) { return same(parameter, {}); }
 
+/// Of SiteRoadmap, which only one command makes.
+constexpr ParameterWords of_voronoi(std::string_view parameter, std::string_view words) {
+  return {parameter, {}, {}, {}, {}, {}, {}, {}, {}, words};
+}
+
 /// Of Follower, which only one command makes.
 constexpr ParameterWords of_follow(std::string_view parameter, std::string_view words) {
   return {parameter, {}, {}, {}, {}, {}, {}, words};
@@ -52,6 +57,7 @@ constexpr ParameterWords kParameterWords[] = {
     {"extra_levels", "--extra-levels", "the number of extra levels", "the number of extra levels"},
     library_only("for_distances"),
     library_only("frames"),
+    of_voronoi("from", "--from"),
     library_only("group_size"),
     library_only("growth"),
     library_only("inside"),
@@ -59,7 +65,7 @@ constexpr ParameterWords kParameterWords[] = {
     library_only("largest"),
     {"limit", {}, {}, {}, {}, "--limit"},
     library_only("links"),
-    {"margin", "--margin", {}, {}, {}, {}, {}, {}, "--margin"},
+    {"margin", "--margin", {}, {}, {}, {}, {}, {}, "--margin", "--margin"},
     {"max_gap", {}, "--max-gap", "--max-gap"},
     {"medial_mesh", "--medial-mesh", {}, {}},
     {"memory_budget",
@@ -102,6 +108,8 @@ constexpr ParameterWords kParameterWords[] = {
      "the resolution",
      {},
      "--resolution",
+     "--resolution",
+     {},
      "--resolution"},
     of_follow("renewal_factor", "--renew-factor"),
     of_follow("renewed", "--renew"),
@@ -114,6 +122,7 @@ constexpr ParameterWords kParameterWords[] = {
     library_only("site_of_segment"),
     library_only("sphere"),
     {"threads", "--threads", "--threads", "--threads", {}, {}, {}, "--threads"},
+    of_voronoi("to", "--to"),
     {"tolerance", {}, {}, {}, {}, "--tolerance"},
     {"total", {}, {}, "--total"},
     library_only("validation"),
@@ -142,6 +151,8 @@ std::string_view words_of(const ParameterWords& parameter, Command command) {
       return {};  // messages about curvature name no parameter
     case Command::kPlane:
       return parameter.plane;
+    case Command::kVoronoi:
+      return parameter.voronoi;
     case Command::kDoctor:
       return parameter.doctor;
   }
@@ -165,6 +176,8 @@ const char* name_of(Command command) {
       return "medial-vk curvature";
     case Command::kPlane:
       return "medial-vk plane";
+    case Command::kVoronoi:
+      return "medial-vk voronoi";
     case Command::kDoctor:
       return "medial-vk doctor";
   }

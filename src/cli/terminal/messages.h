@@ -23,6 +23,7 @@ enum class Command {
   kFollow,        ///< medial-vk follow
   kCurvature,     ///< medial-vk curvature
   kPlane,         ///< medial-vk plane
+  kVoronoi,       ///< medial-vk voronoi
   kDoctor,        ///< medial-vk doctor
 };
 
@@ -36,6 +37,7 @@ struct ParameterWords {
   std::string_view clearance = {};  ///< Of few; empty: that of distance.
   std::string_view follow = {};     ///< Of few.
   std::string_view plane = {};      ///< Of few.
+  std::string_view voronoi = {};    ///< Of few.
 };
 
 /// Every parameter that messages of the library name.

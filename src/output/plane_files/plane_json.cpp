@@ -89,6 +89,29 @@ void add_branch(JsonText& json, const PlaneRecord& record, std::size_t b) {
   json.out += '}';
 }
 
+/// The site of each point and segment of the shape.
+void add_sites(JsonText& json, const PlaneRecord& record) {
+  const nlohmann::ordered_json names = record.sites;
+  json.out += "  \"sites\": " + names.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + ",\n";
+  json.out += "  \"site_of_point\": ";
+  json.row(record.site_of_point, [&](std::uint32_t site) { json.add("{}", site); });
+  json.out += ",\n  \"site_of_segment\": ";
+  json.row(record.site_of_segment, [&](std::uint32_t site) { json.add("{}", site); });
+  json.out += ",\n";
+}
+
+/// The sites on both sides of a branch: those of its first arc.
+std::array<std::uint32_t, 2> sites_of(const PlaneRecord& record, const AxisBranch& branch) {
+  std::array<std::uint32_t, 2> sites = {};
+  const AxisArc& arc = record.axis.arcs[branch.arcs.front()];
+  for (std::size_t i = 0; i < 2; ++i) {
+    const PlaneContact& contact = arc.contacts[i];
+    sites[i] = (contact.is_point ? record.site_of_point : record.site_of_segment)[contact.index];
+  }
+  if (sites[0] > sites[1]) std::swap(sites[0], sites[1]);
+  return sites;
+}
+
 /// With null for what is not finite, as JSON has no such number.
 nlohmann::ordered_json head_of(const PlaneRecord& record) {
   const ShapeReport& shape = record.shape.report;
@@ -135,6 +158,7 @@ std::string encode_plane_json(const PlaneRecord& record) {
   json.rows("segments", record.shape.segments.size(),
             [&](std::size_t i) { json.add("[{}, {}]", record.shape.segments[i][0], record.shape.segments[i][1]); });
   json.out += ",\n";
+  if (!record.sites.empty()) add_sites(json, record);
   json.rows("nodes", axis.nodes.size(), [&](std::size_t i) {
     const AxisNode& node = axis.nodes[i];
     json.add(R"({{"point": [{}, {}], "radius": {}, "object_angle": {}, "kind": "{}", "degree": {}}})", node.point[0],
@@ -174,6 +198,10 @@ std::string encode_plane_geojson(const PlaneRecord& record) {
     json.add(R"(}}, "properties": {{"kind": "branch", "branch": {}, "length": {}, "ends": [{}, {}], "radius": )", i,
              branch.length, branch.ends[0], branch.ends[1]);
     json.row(line, [&](const AxisSample& s) { json.add("{}", s.radius); });
+    if (!record.sites.empty()) {
+      const std::array<std::uint32_t, 2> sites = sites_of(record, branch);
+      json.add(", \"sites\": [{}, {}]", sites[0], sites[1]);
+    }
     json.out += ", \"object_angle\": ";
     json.row(line, [&](const AxisSample& s) { json.add("{}", s.object_angle); });
     json.out += "}}";

@@ -41,6 +41,9 @@ struct PlaneRecord {
   std::optional<PublishedCover> published;     ///< If the axis was found as published.
   std::vector<std::vector<AxisSample>> lines;  ///< By branch.
   bool y_is_down = false;
+  /// Of curves between sites: their names, and the site of each point and segment of the shape. Empty: of an axis.
+  std::vector<std::string> sites;
+  std::vector<std::uint32_t> site_of_point, site_of_segment;
   std::optional<std::array<double, 4>> view_box;  ///< Of an SVG: x, y, width, height.
 };
 

@@ -1,0 +1,160 @@
+#include "output/site_picture/site_picture.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "medial_vk/medial_spheres.h"
+#include "output/colours/colour_map.h"
+#include "output/picture/panels/panel.h"
+#include "output/picture/panels/scene.h"
+
+namespace medial_vk {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kThickness = 0.006;  // of segments and points, as a share of the diagonal of the box
+constexpr double kSpeck = 0.02;       // of that
+constexpr double kPathShare = 0.004;  // likewise, the radius of the path
+constexpr std::size_t kMostPairsNamed = 6;
+
+Vector3d vector_of(const Point& p) { return Vector3d(p.data()); }
+Point point_of(const Vector3d& v) { return {v[0], v[1], v[2]}; }
+
+/// Triangles that stand for sites of any kind.
+class SitesMesh {
+ public:
+  SitesMesh(const SiteGrid& grid, std::span<const VoronoiSite> sites) {
+    const Point upper = grid.corner(grid.size);
+    radius_ = kThickness * (vector_of(upper) - vector_of(grid.origin)).norm();
+    // Specks at the corners: the picture shows the whole box.
+    for (unsigned i = 0; i < 8; ++i) {
+      Point corner = grid.origin;
+      for (std::size_t k = 0; k < 3; ++k) corner[k] = ((i >> k) & 1u) != 0 ? upper[k] : corner[k];
+      const Point beside = {corner[0] + kSpeck * radius_, corner[1], corner[2]};
+      triangle(corner, beside, {corner[0], corner[1] + kSpeck * radius_, corner[2]});
+    }
+    for (const VoronoiSite& site : sites) add(site);
+  }
+
+  const Mesh& mesh() const { return mesh_; }
+  double diagonal() const { return radius_ / kThickness; }
+
+ private:
+  void add(const VoronoiSite& site) {
+    if (site.mesh) {
+      const Mesh& other = site.mesh->prepared().mesh;
+      for (const auto& [a, b, c] : other.triangles) triangle(other.vertices[a], other.vertices[b], other.vertices[c]);
+    }
+    for (const auto& [a, b, c] : site.triangles) triangle(a, b, c);
+    for (const auto& [a, b] : site.segments) spindle(vector_of(a), vector_of(b));
+    for (const Point& p : site.points) {
+      const Vector3d up(0, 0, 2 * radius_);
+      spindle(vector_of(p) - up, vector_of(p) + up);
+    }
+  }
+
+  void triangle(const Point& a, const Point& b, const Point& c) {
+    const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
+    mesh_.vertices.insert(mesh_.vertices.end(), {a, b, c});
+    mesh_.triangles.push_back({first, first + 1, first + 2});
+  }
+
+  /// A prism with six sides and pointed ends.
+  void spindle(const Vector3d& a, const Vector3d& b) {
+    constexpr int kSides = 6;
+    const Vector3d along = b - a;
+    if (!(along.norm() > 0)) return;
+    const Vector3d u = along.unitOrthogonal(), v = along.normalized().cross(u);
+    const Vector3d inset = std::min(radius_, 0.4 * along.norm()) * along.normalized();
+    const auto ring = [&](int i, const Vector3d& middle) {
+      const double angle = 2 * 3.14159265358979 * i / kSides;
+      return Vector3d(middle + radius_ * (std::cos(angle) * u + std::sin(angle) * v));
+    };
+    for (int i = 0; i < kSides; ++i) {
+      const Point low = point_of(ring(i, a + inset)), next_low = point_of(ring(i + 1, a + inset));
+      const Point high = point_of(ring(i, b - inset)), next_high = point_of(ring(i + 1, b - inset));
+      triangle(point_of(a), next_low, low);
+      triangle(low, next_low, next_high);
+      triangle(low, next_high, high);
+      triangle(point_of(b), high, next_high);
+    }
+  }
+
+  Mesh mesh_;
+  double radius_ = 0;
+};
+
+/// Points as the discs of sheets that are numbered by pair.
+std::vector<MedialSphere> discs_of(const SiteRecord& record) {
+  std::map<std::array<std::uint32_t, 2>, std::int32_t> numbers;
+  for (const SitePair& pair : pairs_of(record.voronoi)) {
+    numbers.try_emplace(pair.sites, static_cast<std::int32_t>(numbers.size()));
+  }
+  std::vector<MedialSphere> discs;
+  discs.reserve(record.voronoi.points.size());
+  for (const SitePoint& p : record.voronoi.points) {
+    MedialSphere disc{};
+    disc.centre = p.point;
+    disc.radius = p.distance;
+    const Point a = spoke_of(p, 0), b = spoke_of(p, 1);
+    for (std::size_t k = 0; k < 3; ++k) {
+      disc.spoke_a[k] = static_cast<float>(a[k]);
+      disc.spoke_b[k] = static_cast<float>(b[k]);
+    }
+    disc.object_angle = static_cast<float>(p.object_angle);
+    const auto number = numbers.find({p.sites[0], p.sites[1]});
+    disc.sheet = number == numbers.end() ? -1 : number->second;
+    disc.voxel = p.voxel;
+    discs.push_back(disc);
+  }
+  return discs;
+}
+
+void name_pairs(const SiteRecord& record, picture::Legend& legend) {
+  legend = {};
+  legend.title = fmt::format("{} points between {} sites", record.voronoi.points.size(), record.sites.size());
+  const std::vector<SitePair> pairs = pairs_of(record.voronoi);
+  for (std::size_t i = 0; i < std::min(pairs.size(), kMostPairsNamed); ++i) {
+    legend.swatches.emplace_back(picture::sheet_colour_index(static_cast<std::int32_t>(i)),
+                                 fmt::format("{} and {}", pairs[i].sites[0], pairs[i].sites[1]));
+  }
+  if (record.path) legend.note = fmt::format("path: a ball of radius {:.4g} passes", record.path->width);
+}
+
+/// On top of everything, since it is what the picture is for.
+void add_path(const SitePath& path, const Mesh& mesh, double radius, picture::Scene& scene) {
+  const std::size_t colour = scene.palette.size();
+  scene.palette.emplace_back(0.85f, 0.1f, 0.1f);
+  for (std::size_t i = 1; i < path.line.size(); ++i) {
+    const Vector3d a = vector_of(path.line[i - 1]), b = vector_of(path.line[i]);
+    const int count = static_cast<int>(std::clamp(std::ceil((b - a).norm() / (5 * radius)), 1.0, 2000.0));
+    for (int k = 0; k <= count; ++k) {
+      scene.on_top.push_back(picture::make_mark(mesh, point_of(a + (b - a) * k / count), radius, colour));
+    }
+  }
+}
+
+}  // namespace
+
+Picture draw_sites(const SiteRecord& record, std::span<const VoronoiSite> sites, const PictureOptions& options) {
+  const SitesMesh shapes(record.voronoi.grid, sites);
+  PictureOptions how = options;
+  how.show = PictureShow::kPoints;
+  how.colour = PictureColour::kSheet;
+  picture::Scene scene = picture::make_scene(shapes.mesh(), discs_of(record), record.voronoi.grid.side, how);
+  name_pairs(record, scene.legend);
+  if (record.path) add_path(*record.path, shapes.mesh(), kPathShare * shapes.diagonal(), scene);
+  Picture picture = picture::blank(how);
+  for (const picture::Panel& panel : picture::panels_of(how.show, picture.width)) {
+    picture::draw_panel(scene, panel, how.view, picture);
+  }
+  picture::draw_legend(scene, picture);
+  return picture;
+}
+
+}  // namespace medial_vk

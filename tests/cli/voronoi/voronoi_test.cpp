@@ -1,0 +1,164 @@
+// `medial-vk voronoi` from outside: exit codes, streams, files. Everything here runs without a Vulkan device.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "cli/tool_test.h"
+#include "support/solids/mesh_files.h"
+#include "support/solids/solids.h"
+
+namespace medial_vk {
+namespace {
+
+using test::read_file;
+using test::ScratchFolder;
+using test::ToolResult;
+using test::write_file;
+using testing::HasSubstr;
+using testing::StartsWith;
+using testing::UnorderedElementsAre;
+
+class VoronoiCommand : public testing::Test {
+ protected:
+  void SetUp() override {
+    write_file(scratch_.path("a.obj"), test::to_obj(test::make_box({1, 1, 1})));
+    write_file(scratch_.path("b.obj"), test::to_obj(test::moved(test::make_box({1, 1, 1}), {3, 0, 0})));
+  }
+
+  ToolResult run(std::vector<std::string> arguments, const std::string& standard_input = {}) {
+    arguments.insert(arguments.begin(), "voronoi");
+    return test::Tool({.arguments = arguments, .folder = scratch_.path(""), .standard_input = standard_input}).wait();
+  }
+
+  nlohmann::json json_of(const std::string& file) { return nlohmann::json::parse(read_file(scratch_.path(file))); }
+
+  ScratchFolder scratch_;
+};
+
+TEST_F(VoronoiCommand, WritesTheSurfaceAndTellsOfIt) {
+  const ToolResult result = run({"a.obj", "b.obj", "--resolution", "30", "--report", "r.json", "--check"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("no other site is nearer"));
+  EXPECT_THAT(result.err, HasSubstr("2 sites: 2 solids"));
+  EXPECT_THAT(scratch_.names(), UnorderedElementsAre("a.obj", "a.voronoi.ply", "b.obj", "r.json"));
+  EXPECT_THAT(read_file(scratch_.path("a.voronoi.ply")), StartsWith("ply\nformat binary_little_endian 1.0\n"));
+  const auto report = json_of("r.json");
+  EXPECT_EQ(report["surface"]["pieces"], 1);
+  EXPECT_EQ(report["surface"]["undecided_voxels"], 0);
+  EXPECT_GE(report["surface"]["least_clearance"].get<double>(), 1 - 1e-12);
+  EXPECT_LT(report["surface"]["least_clearance"].get<double>(), 1.01);
+  EXPECT_EQ(report["pairs"][0]["sites"], nlohmann::json({0, 1}));
+}
+
+TEST_F(VoronoiCommand, EveryFormatHoldsThePlaneBetweenTheBoxes) {
+  for (const char* file : {"v.json", "v.csv", "v.obj", "v.npz", "v.glb"}) {
+    ASSERT_EQ(run({"a.obj", "b.obj", "--resolution", "16", "-q", "-o", file}).exit_code, 0) << file;
+  }
+  const auto json = json_of("v.json");
+  ASSERT_FALSE(json["points"].empty());
+  for (const auto& point : json["points"]) EXPECT_NEAR(point["point"][0].get<double>(), 2, 1e-12);
+  EXPECT_EQ(json["faces"].size(), json["pieces"][0]["faces"]);
+  std::istringstream table(read_file(scratch_.path("v.csv")));
+  std::string line;
+  std::getline(table, line);
+  std::size_t rows = 0;
+  for (; std::getline(table, line); ++rows) EXPECT_NEAR(std::stod(line), 2, 1e-12);
+  EXPECT_EQ(rows, json["points"].size());
+  const std::string obj = read_file(scratch_.path("v.obj"));
+  std::size_t vertices = 0;
+  for (std::size_t at = obj.find("\nv "); at != std::string::npos; at = obj.find("\nv ", at + 1)) ++vertices;
+  EXPECT_EQ(vertices, rows);
+  EXPECT_THAT(obj, HasSubstr("g sites_0_1_piece_0\n"));
+  EXPECT_THAT(read_file(scratch_.path("v.npz")), HasSubstr("face_sites.npy"));
+  EXPECT_THAT(read_file(scratch_.path("v.glb")), HasSubstr("sites 0 and 1"));
+}
+
+TEST_F(VoronoiCommand, PointsSegmentsAndTrianglesAreSites) {
+  const ToolResult result = run({"--point=-1,0,0", "--point", "1,0,0", "--segment", "0,3,-1,0,3,1", "--triangle",
+                                 "-1,-2,0,1,-2,0,0,-2,1", "--resolution", "20", "-o", "-", "--ascii"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("comment site 3 triangle triangle 1\n"));
+  EXPECT_THAT(result.err, HasSubstr("4 sites: 2 points, 1 segment, 1 triangle"));
+}
+
+TEST_F(VoronoiCommand, AnOpenMeshIsASurface) {
+  write_file(scratch_.path("plate.obj"), "v 0 0 2\nv 1 0 2\nv 1 1 2\nv 0 1 2\nf 1 2 3\nf 1 3 4\n");
+  const ToolResult result = run({"plate.obj", "a.obj", "--resolution", "16"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("plate: not closed: a surface, without an inside."));
+}
+
+TEST_F(VoronoiCommand, ConnectedPartsAreSitesWithSplit) {
+  Mesh both = test::make_box({1, 1, 1});
+  test::append(both, test::moved(test::make_box({1, 1, 1}), {3, 0, 0}));
+  write_file(scratch_.path("both.obj"), test::to_obj(both));
+  const ToolResult result = run({"both.obj", "--split", "--resolution", "16"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("2 sites: 2 solids"));
+  const ToolResult whole = run({"both.obj", "--point", "5,5,5", "--resolution", "16"});
+  EXPECT_THAT(whole.err, HasSubstr("2 sites: 1 solid, 1 point"));
+}
+
+TEST_F(VoronoiCommand, ARoadmapHasAPathThroughTheGap) {
+  const ToolResult result = run({"a.obj", "b.obj", "--resolution", "30", "--roadmap", "m.json", "--from", "2,-0.5,0.5",
+                                 "--to", "2,1.5,0.5", "--picture", "v.png"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto map = json_of("m.json");
+  // The widest way is straight between the boxes, or around them: none is wider than the ends, 1.118 from the boxes.
+  EXPECT_GT(map["path"]["width"].get<double>(), 0.99);
+  EXPECT_LE(map["path"]["width"].get<double>(), std::sqrt(1.25));
+  EXPECT_EQ(map["path"]["line"].front(), nlohmann::json({2.0, -0.5, 0.5}));
+  for (const auto& link : map["links"]) EXPECT_GT(link["width"].get<double>(), 0);
+  EXPECT_THAT(result.err, HasSubstr("path"));
+  EXPECT_THAT(read_file(scratch_.path("v.png")).substr(0, 4), "\x89PNG");
+}
+
+TEST_F(VoronoiCommand, ShapesOfThePlaneHaveCurvesBetweenThem) {
+  write_file(scratch_.path("one.csv"), "x,y\n0,0\n1,0\n1,1\n0,1\n");
+  write_file(scratch_.path("two.csv"), "x,y\n3,0\n4,0\n4,1\n3,1\n");
+  const ToolResult result = run({"one.csv", "two.csv", "--report", "r.json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto curves = json_of("one.voronoi.json");
+  EXPECT_EQ(curves["sites"], nlohmann::json({"one", "two"}));
+  for (const auto& node : curves["nodes"]) EXPECT_NEAR(node["point"][0].get<double>(), 2, 1e-12);
+  EXPECT_EQ(json_of("r.json")["curves"]["branches"], 1);
+  ASSERT_EQ(run({"one.csv", "two.csv", "-q", "-o", "c.geojson"}).exit_code, 0);
+  EXPECT_EQ(json_of("c.geojson")["features"][0]["properties"]["sites"], nlohmann::json({0, 1}));
+  write_file(scratch_.path("across.csv"), "x,y\n0.5,0\n2,0\n2,1\n0.5,1\n");
+  const ToolResult crossing = run({"one.csv", "across.csv"});
+  EXPECT_EQ(crossing.exit_code, 3);
+  EXPECT_THAT(crossing.err, HasSubstr("must be apart"));
+}
+
+TEST_F(VoronoiCommand, WrongUseAndInvalidSitesHaveTheirExitCodes) {
+  EXPECT_EQ(run({"a.obj"}).exit_code, 2);
+  EXPECT_EQ(run({"a.obj", "--point", "1,2"}).exit_code, 2);
+  EXPECT_EQ(run({"a.obj", "b.obj", "--from", "0,0,0"}).exit_code, 2);
+  EXPECT_EQ(run({"a.obj", "b.obj", "-o", "v.stl"}).exit_code, 2);
+  EXPECT_EQ(run({"a.obj", "b.obj", "-o", "a.obj"}).exit_code, 2);
+  const ToolResult inside = run({"a.obj", "b.obj", "--roadmap", "m.json", "--from", "0.5,0.5,0.5", "--to", "2,0,0"});
+  EXPECT_EQ(inside.exit_code, 2);
+  EXPECT_THAT(inside.err, HasSubstr("--from must be outside of all sites"));
+  const ToolResult twice = run({"a.obj", "a.obj"});
+  EXPECT_EQ(twice.exit_code, 3);
+  EXPECT_THAT(twice.err, HasSubstr("sites 0 and 1 have the same elements"));
+  EXPECT_EQ(run({"a.obj", "missing.obj"}).exit_code, 3);
+  EXPECT_EQ(run({"a.obj", "b.obj", "-o", "no/v.ply"}).exit_code, 6);
+}
+
+TEST_F(VoronoiCommand, OverlapsAreReported) {
+  write_file(scratch_.path("c.obj"), test::to_obj(test::moved(test::make_box({1, 1, 1}), {0.6, 0.3, 0.2})));
+  const ToolResult result = run({"a.obj", "c.obj", "--resolution", "16", "--report", "r.json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("a and c overlap"));
+  EXPECT_EQ(json_of("r.json")["surface"]["overlaps"], nlohmann::json({{0, 1}}));
+}
+
+}  // namespace
+}  // namespace medial_vk
