@@ -23,8 +23,8 @@ struct CertificateReport {
 /// Recomputes radius and spoke a exactly at each centre as written to the output, rounds the radius down by a derived
 /// bound, and tests growth (Lemma 2.3), the tip of spoke b (Lemma 2.4), the thresholds, and the voxel: the centre lies
 /// in the stated voxel, which has no other sphere (of several, the first is kept). Spheres that fail are dropped; in
-/// mode certified their voxels are added to the undecided ones. `options` are those of the extraction. Precondition:
-/// spheres in voxel order, as an extraction returns them. Error: kOutOfMemory; `extraction` is then undefined.
+/// mode certified their voxels are added to the undecided ones. The extraction proves sides. Preconditions: its
+/// `options`, and its order of spheres. Errors: kUsage (it is of the other side); kOutOfMemory (it is then undefined).
 Result<CertificateReport> certify_spheres(const IndexedMesh& mesh, const ExtractionOptions& options,
                                           Extraction& extraction);
 

@@ -52,9 +52,9 @@ struct CoverFollowMeasures {
 class CoverFollower {
  public:
   /// The balls are meant to cover the rest pose closely, as fits with contract `cover` do; balls that leave points out
-  /// grow until they hold them. Balls of radius 0 hold no triangle. Errors: kUsage (no ball with a positive radius;
-  /// more than 2^24 balls; names a ball with a number that is out of range), kInvalidMesh (a longest side below 1e-60,
-  /// a coordinate above 1e60), kOutOfMemory.
+  /// grow until they hold them. Balls of radius 0 hold no triangle. Errors: kUsage (the mesh is that of the outside; no
+  /// ball with a positive radius; more than 2^24 balls; names a ball with a number that is out of range), kInvalidMesh
+  /// (a longest side below 1e-60, a coordinate above 1e60), kOutOfMemory.
   static Result<CoverFollower> create(const IndexedMesh& rest, std::span<const Ball> balls,
                                       const CoverFollowerOptions& options = {});
   CoverFollower(CoverFollower&&) noexcept;

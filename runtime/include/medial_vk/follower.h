@@ -87,9 +87,9 @@ class Follower {
  public:
   /// The balls lie inside the solid in the rest pose, up to a millionth of the longest side, as medial spheres and fits
   /// with contract `inside` do. kTangent: each of them grows along its spoke until it touches the boundary a second
-  /// time; the result holds the given ball up to 1e-10 of the longest side, if that was inside. Errors: kUsage (no
-  /// ball; an option out of range; `renewed` of a mesh that is not closed or by kPublished; names a ball that is not
-  /// inside), kInvalidMesh (a longest side below 1e-60, a coordinate above 1e60), kOutOfMemory.
+  /// time; the result holds the given ball up to 1e-10 of the longest side, if that was inside. Errors: kUsage (the
+  /// outside; no ball; an option out of range; `renewed` of a mesh that is not closed or by kPublished; names a ball
+  /// that is not inside), kInvalidMesh (a longest side below 1e-60, a coordinate above 1e60), kOutOfMemory.
   static Result<Follower> create(const IndexedMesh& rest, std::span<const Ball> balls,
                                  const FollowerOptions& options = {});
   Follower(Follower&&) noexcept;

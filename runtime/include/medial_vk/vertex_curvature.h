@@ -64,9 +64,9 @@ struct VertexCurvature {
 /// their normals differ by less than 66 degrees: what lies on the other side of a wall never does. (kVoronoi: if they
 /// differ by less than 90 degrees.) Time: some 0.05 ms of one core
 /// for a vertex, however dense vertices are. `progress` may be called on any thread, on one at a time, with the stages
-/// "tips on the mesh" and "vertices". Does not throw. Errors: kUsage (a ball or a vertex with a number that is not
-/// finite or beyond 1e18, a radius that is not positive, numbers of balls that differ, 2^31 balls or more, an option
-/// out of range), kInterrupted, kOutOfMemory.
+/// "tips on the mesh" and "vertices". Does not throw. Errors: kUsage (the mesh is that of the outside; a ball or a
+/// vertex with a number that is not finite or beyond 1e18, a radius that is not positive, numbers of balls that differ,
+/// 2^31 balls or more, an option out of range), kInterrupted, kOutOfMemory.
 Result<std::vector<VertexCurvature>> curvature_at_vertices(const IndexedMesh& mesh, std::span<const Ball> balls,
                                                            const BoundaryCurvature& curvature,
                                                            const VertexCurvatureOptions& options = {},

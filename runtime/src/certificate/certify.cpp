@@ -255,6 +255,9 @@ void list_dropped(const std::vector<std::uint8_t>& passed, Extraction& extractio
 
 Result<CertificateReport> certify_spheres(const IndexedMesh& mesh, const ExtractionOptions& options,
                                           Extraction& extraction) try {
+  if (extraction.side != mesh.side()) {
+    return Error{ErrorCode::kUsage, "the spheres are those of the other side of the mesh"};
+  }
   std::vector<MedialSphere>& spheres = extraction.spheres;
   const Certifier certifier(mesh, options, extraction.grid);
   std::vector<std::uint8_t> passed = first_of_voxels(spheres);

@@ -7,6 +7,7 @@
 
 #include "base/point_ops.h"
 #include "bvh/refined_tree.h"
+#include "indexed_mesh/bounded_mesh.h"
 #include "solid/number_by_rays.h"
 
 namespace medial_vk {
@@ -51,9 +52,7 @@ Solid::Solid(const IndexedMesh& mesh, Bvh bvh)
 
 Result<Solid> Solid::build(const IndexedMesh& mesh) {
   constexpr std::uint32_t kLeafSize = 4;
-  if (mesh.side() == MeshSide::kOutside) {
-    return Error{ErrorCode::kUsage, "the mesh is that of the outside, which has no end: give the mesh itself"};
-  }
+  if (Status status = check_bounded(mesh); !status) return status.error();
   Result<Bvh> bvh = refined_tree(mesh.bvh(), kLeafSize);
   if (!bvh) return bvh.error();
   Solid solid(mesh, std::move(bvh).value());

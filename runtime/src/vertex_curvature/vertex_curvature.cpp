@@ -8,6 +8,7 @@
 #include "base/host_memory.h"
 #include "base/parallel.h"
 #include "base/point_ops.h"
+#include "indexed_mesh/bounded_mesh.h"
 #include "vertex_curvature/surface_tips.h"
 #include "vertex_curvature/tip_means.h"
 #include "vertex_curvature/touching_balls.h"
@@ -192,6 +193,7 @@ Result<std::vector<VertexCurvature>> curvature_at_vertices(const IndexedMesh& me
                                                            const VertexCurvatureOptions& options,
                                                            const StageProgress& progress, const std::stop_token& stop) {
   return catch_out_of_memory("assigning curvatures to vertices", [&]() -> Result<std::vector<VertexCurvature>> {
+    if (const Status status = check_bounded(mesh); !status) return status.error();
     if (const Status status = check_input(mesh.view(), balls, curvature, options); !status) return status.error();
     try {
       return assign(mesh, balls, curvature, options, progress, stop);

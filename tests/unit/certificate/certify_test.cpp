@@ -74,6 +74,17 @@ TEST_P(CertifyTest, MakesNumbersExact) {
   EXPECT_FLOAT_EQ(s.object_angle, static_cast<float>(std::numbers::pi / 2));
 }
 
+TEST_P(CertifyTest, RefusesSpheresOfTheOtherSide) {
+  add(sphere_at(2.03, 1.97, 0.5 - 0.3 * epsilon()));
+  extraction_.side = MeshSide::kOutside;
+  const auto refused = certify_spheres(indexed_, options_, extraction_);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().code, ErrorCode::kUsage);
+  EXPECT_EQ(extraction_.spheres.size(), 1u);
+  extraction_.side = MeshSide::kInside;
+  EXPECT_EQ(certify().passed, 1u);
+}
+
 TEST_P(CertifyTest, LetsOneSphereOfAVoxelPass) {
   add(sphere_at(2.03, 1.97, 0.5 - 0.1 * epsilon()));
   add(sphere_at(2.03, 1.97, 0.5 - 0.3 * epsilon()));

@@ -8,6 +8,7 @@
 
 #include "bvh/nearby_triangles.h"
 #include "bvh/refined_tree.h"
+#include "indexed_mesh/bounded_mesh.h"
 #include "mesh/winding/winding_number.h"
 #include "solid/number_by_rays.h"
 
@@ -63,6 +64,7 @@ MovingSurface::MovingSurface(const IndexedMesh& rest, Bvh bvh, Sides sides)
 
 Result<MovingSurface> MovingSurface::build(const IndexedMesh& rest, Sides sides) {
   constexpr std::uint32_t kLeafSize = 4;
+  if (Status status = check_bounded(rest); !status) return status.error();
   Result<Bvh> bvh = refined_tree(rest.bvh(), kLeafSize);
   if (!bvh) return bvh.error();
   MovingSurface surface(rest, std::move(bvh).value(), sides);
