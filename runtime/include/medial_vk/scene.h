@@ -61,7 +61,7 @@ class Scene {
   Status closest_points_of_groups(std::span<const Point> points, std::uint32_t group_size, std::span<ClosestPoint> out);
   /// For each ball: 1 if the open ball holds no point of the mesh, else 0.
   Result<std::vector<std::uint8_t>> empty_balls(std::span<const Ball> balls);
-  /// Generalised winding numbers (Jacobson et al. 2013), each within `tolerance` of the exact value.
+  /// Generalised winding numbers (Jacobson et al. 2013) up to `tolerance`; of the outside (on_side()), 1 less those.
   Result<std::vector<double>> winding_numbers(std::span<const Point> points, double tolerance = 0.05);
   /// Average outward flux of the distance gradient through each ball's sphere, `samples` spiral points each, 1 to
   /// 60,000.

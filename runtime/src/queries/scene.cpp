@@ -88,6 +88,8 @@ Result<std::vector<std::uint8_t>> Scene::Impl::empty_balls(std::span<const Ball>
 Result<std::vector<double>> Scene::Impl::winding_numbers(std::span<const Point> points, double tolerance) {
   if (Status ready = make_queries(); !ready.ok()) return ready.error();
   if (!(tolerance > 0)) return Error{ErrorCode::kUsage, "`tolerance` must be positive"};
+  // The device sums the angles of triangles; the outside is the solid that holds all points far away.
+  const double far_number = mesh.side == MeshSide::kOutside ? 1 : 0;
   std::vector<double> out(points.size());
   QuerySet set;
   set.count = points.size();
@@ -105,7 +107,7 @@ Result<std::vector<double>> Scene::Impl::winding_numbers(std::span<const Point> 
   };
   set.read = [&](std::size_t first, std::size_t count, std::span<const std::byte* const, 2> items) -> Status {
     const auto* numbers = reinterpret_cast<const std::array<float, 2>*>(items[0]);
-    for (std::size_t i = 0; i < count; ++i) out[first + i] = double{numbers[i][0]};
+    for (std::size_t i = 0; i < count; ++i) out[first + i] = far_number + double{numbers[i][0]};
     return {};
   };
   if (Status status = answer(set); !status.ok()) return status.error();
