@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstdint>
 #include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -70,6 +71,7 @@ Result<BallOfFile> ball_of_object(const Json& object, const std::string& place) 
       !read_numbers(object, "radius", {&out.ball.radius, 1})) {
     return file_error(place, "there must be a centre of three numbers and a radius");
   }
+  if (const auto side = object.find("side"); side != object.end() && *side == "outside") return outside_error(place);
   if (!object.contains("spoke_a") && !object.contains("spoke_b")) return out;
   if (!read_numbers(object, "spoke_a", out.spokes.a) || !read_numbers(object, "spoke_b", out.spokes.b)) {
     return file_error(place, "there must be both spoke_a and spoke_b, of three numbers each, or neither");
@@ -116,6 +118,11 @@ Result<BallsWithSpokes> balls_of_arrays(std::string_view bytes, const std::strin
     const std::size_t count = radii.value().size();
     if (centres.value().size() != 3 * count) {
       return file_error(name, fmt::format("radius has {} numbers for {} centres", count, centres.value().size() / 3));
+    }
+    if (arrays.contains("side")) {
+      const auto sides = numbers_of<std::uint8_t>(arrays.at("side"), "|u1", 1, "side");
+      if (!sides) return file_error(name, sides.error().message);
+      if (std::ranges::any_of(sides.value(), [](double side) { return side != 0; })) return outside_error(name);
     }
     BallsWithSpokes out;
     out.balls.reserve(count);

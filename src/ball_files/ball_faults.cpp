@@ -38,6 +38,12 @@ std::string fault_of_ball(const Ball& ball, const SpokePair* spokes) {
   return {};
 }
 
+Error outside_error(const std::string& name) {
+  return {ErrorCode::kUsage, name +
+                                 ": there are points outside of the solid (their side); balls must be inside: write " +
+                                 "the file with --side inside"};
+}
+
 Status check_all(const BallsWithSpokes& read, const std::string& name) {
   for (std::size_t i = 0; i < read.balls.size(); ++i) {
     const std::string fault = fault_of_ball(read.balls[i], read.spokes.empty() ? nullptr : &read.spokes[i]);

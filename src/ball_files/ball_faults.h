@@ -17,4 +17,7 @@ std::string fault_of_ball(const Ball& ball, const SpokePair* spokes);
 /// Error: kInvalidMesh, which names the file and the first ball that has a fault.
 Status check_all(const BallsWithSpokes& read, const std::string& name);
 
+/// Error: kUsage. What reads balls takes them for those of a solid, which points outside of it are not (--side).
+Error outside_error(const std::string& name);
+
 }  // namespace medial_vk

@@ -52,6 +52,8 @@ class BallTable {
     }
     columns_ = words.size();
     const auto is_named = [](const std::optional<std::size_t>& column) { return column.has_value(); };
+    const auto side = std::ranges::find(words, "side");
+    if (side != words.end()) side_ = static_cast<std::size_t>(side - words.begin());
     has_spokes_ = std::all_of(column_.begin() + kSpokes, column_.end(), is_named);
     return {};
   }
@@ -63,6 +65,7 @@ class BallTable {
     if (words.size() != columns_) {
       return line_error(name_, number, fmt::format("{} values, where the first line names {}", words.size(), columns_));
     }
+    if (side_ && words[*side_] == "outside") return outside_error(fmt::format("{}:{}", name_, number));
     std::array<double, kColumns.size()> values = {};
     for (std::size_t i = 0; i < kColumns.size(); ++i) {
       if (!column_[i] || (i >= kSpokes && !has_spokes_)) continue;
@@ -83,6 +86,7 @@ class BallTable {
  private:
   std::string name_;
   std::array<std::optional<std::size_t>, kColumns.size()> column_;
+  std::optional<std::size_t> side_;
   std::size_t columns_ = 0;
   bool has_spokes_ = false;
 };
@@ -92,6 +96,9 @@ Result<BallsWithSpokes> balls_of_medial_ply(const std::string& path) {
   if (!bytes) return bytes.error();
   const Result<MedialFile> file = decode_ply(bytes.value(), path);
   if (!file) return file.error();
+  if (file.value().header.inside_count.value_or(file.value().spheres.size()) < file.value().spheres.size()) {
+    return outside_error(path);
+  }
   const auto point = [](const std::array<float, 3>& spoke) { return Point{spoke[0], spoke[1], spoke[2]}; };
   BallsWithSpokes out;
   out.balls.reserve(file.value().spheres.size());

@@ -13,8 +13,8 @@ namespace medial_vk {
 
 /// The balls of a table (CSV), whose first line names the columns, in any order: x, y, z and radius; of a table with
 /// several sets, where a column `level` numbers them, those of the last set. Other columns are left out, but `link`, of
-/// a robot, is refused. Numbers are at most 1e18 and radii positive. Error: kInvalidMesh, with `name` and the line at
-/// fault.
+/// a robot, is refused. Numbers are at most 1e18 and radii positive. Errors, with `name` and the line at fault:
+/// kInvalidMesh, and kUsage for a ball whose column `side` says `outside`.
 Result<std::vector<Ball>> parse_balls(std::string_view text, const std::string& name);
 
 /// Balls, and the spokes of each if the file has them.
@@ -32,7 +32,8 @@ enum class BodyBalls { kInside, kCover };
 
 /// A medial PLY has the balls of its points, a body file (.npz) those of `of_body`; other .npz and .json are those of
 /// medial points, curvatures and fitted spheres (ball_arrays.h); any other name but .glb is that of a table; "-": a
-/// table on standard input. Errors: kInvalidMesh (the file cannot be read, or has no ball), kOutOfMemory.
+/// table on standard input. Errors: kInvalidMesh (the file cannot be read, or has no ball), kUsage (points outside of
+/// their solid are among them), kOutOfMemory.
 Result<std::vector<Ball>> read_balls(const std::string& path, BodyBalls of_body = BodyBalls::kInside);
 
 /// The same, with the spokes of medial points, or of a table that has their columns. A body file has none.

@@ -10,7 +10,9 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text = fuzz::as_text(data, size);
   const Result<std::vector<Ball>> balls = parse_balls(text, fuzz::kName);
   if (!balls.ok()) {
-    fuzz::require_clear(balls.error(), ErrorCode::kInvalidMesh);
+    const bool is_outside = balls.error().code == ErrorCode::kUsage;  // a ball with this side
+    fuzz::require(!is_outside || text.find("outside") != std::string_view::npos, "a file without one is no such error");
+    fuzz::require_clear(balls.error(), is_outside ? ErrorCode::kUsage : ErrorCode::kInvalidMesh);
     fuzz::require(balls.error().message.starts_with(fuzz::kName + ":"), "a message begins with the name of the file");
     return 0;
   }

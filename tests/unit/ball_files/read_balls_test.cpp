@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
 #include "ball_files/ball_arrays.h"
+#include "output/medial_ply/medial_file.h"
 #include "output/numpy_files/npz_writer.h"
 
 namespace medial_vk::test {
@@ -112,6 +116,57 @@ TEST(ReadBalls, ArraysHaveBothSpokesOrNone) {
   const Result<BallsWithSpokes> far = balls_of_arrays(bytes_of({1, 2, 3e18}, false, false), "b.npz");
   ASSERT_FALSE(far);
   EXPECT_EQ(far.error().message, "b.npz: ball 0: there is a number beyond 1e+18");
+}
+
+// What reads balls takes them for those of a solid: those of its outside are refused in each format.
+TEST(ReadBalls, PointsOutsideOfTheSolidAreErrorsOfUsage) {
+  const auto expect_refused = [](const auto& read, const std::string& place) {
+    ASSERT_FALSE(read) << place;
+    EXPECT_EQ(read.error().code, ErrorCode::kUsage);
+    EXPECT_TRUE(read.error().message.starts_with(place + ": there are points outside")) << read.error().message;
+  };
+  expect_refused(parse_balls("x,y,z,radius,side\n0,0,0,1,inside\n1,2,3,4,outside\n", "b.csv"), "b.csv:3");
+  EXPECT_EQ(balls_of("x,y,z,radius,side\n0,0,0,1,inside\n1,2,3,4,left\n").size(), 2u) << "a table of any origin";
+  expect_refused(balls_of_json("{\"points\":[{" + kBall + "},{" + kBall + R"(,"side":"outside"}]})", "b.json"),
+                 "b.json: ball 1");
+  EXPECT_TRUE(balls_of_json("{\"points\":[{" + kBall + R"(,"side":"inside"}]})", "b.json"));
+  for (const char last : {'\0', '\1'}) {
+    NpzWriter arrays;
+    arrays.numbers<double>("centre", {2, 3}, std::vector<double>{0, 0, 0, 1, 2, 3});
+    arrays.numbers<double>("radius", {2}, std::vector<double>{1, 1});
+    arrays.add("side", "|u1", {2}, std::string{'\0', last});
+    const auto read = balls_of_arrays(arrays.finish().value(), "b.npz");
+    if (last == '\0') {
+      EXPECT_TRUE(read);
+    } else {
+      expect_refused(read, "b.npz");
+    }
+  }
+}
+
+// A medial PLY is read from a file.
+TEST(ReadBalls, PointsOutsideInAMedialPlyAreErrorsOfUsage) {
+  MedialSphere sphere;
+  sphere.radius = 1;
+  sphere.spoke_a = {0, 0, 1};
+  sphere.spoke_b = {0, 0, -1};
+  const std::vector<MedialSphere> spheres = {sphere, sphere};
+  MedialHeader header;
+  header.version = "1.2.3";
+  header.voxel_size = 1;
+  header.epsilon = 0.01;
+  header.object_angle = 0.6;
+  const std::string path = testing::TempDir() + "sides_of_balls.ply";
+  for (const std::size_t inside : {2, 1, 0}) {
+    header.inside_count = inside;
+    std::ofstream(path, std::ios::binary) << encode_ply(header, spheres, false);
+    const auto read = read_balls(path);
+    EXPECT_EQ(static_cast<bool>(read), inside == 2);
+    if (!read) {
+      EXPECT_EQ(read.error().code, ErrorCode::kUsage) << read.error().message;
+    }
+  }
+  std::filesystem::remove(path);
 }
 
 // Shortest texts of floats are not those of doubles: 0.6f is 0.60000002384185791015625.
