@@ -17,6 +17,9 @@ constexpr int kLeafSize = 4;
 // Depth is at most log2(2^31) because every split halves; a walk keeps at most one entry per level and side.
 constexpr int kStackSize = 128;
 
+// (sqrt(5) - 1) / 86.
+constexpr double kShift = 0.61803398874989485 / 43;
+
 double squared_distance_to_box(const Vector3d& p, const Vector3d& lower, const Vector3d& upper) {
   return (lower - p).cwiseMax(p - upper).cwiseMax(0.0).squaredNorm();
 }
@@ -49,11 +52,15 @@ Tree::Tree(const Mesh& mesh) : far_number_(mesh.unbounded ? 1 : 0) {
   std::iota(order_.begin(), order_.end(), 0);
   nodes_.reserve(n);
   build(0, static_cast<int>(n), centroids);
+  // The box of the search: that of the mesh, enlarged by the room, if there is one, and then by an irrational share of
+  // its longest side at the lower corner, so that no simple plane lies in a face of voxels.
+  const double longest = (nodes_[0].upper - nodes_[0].lower).maxCoeff();
+  const double shift = mesh.room > 0 ? kShift * longest : 0;
+  lower_ = nodes_[0].lower - Vector3d::Constant(mesh.room + shift);
+  upper_ = nodes_[0].upper + Vector3d::Constant(mesh.room);
   // A computed nearest point is a corner plus two products, each coordinate off by at most 4u times the largest
   // coordinate or edge (u = 2^-53, edge <= 2 max); subtraction, squares and root add 4u of the distance. In space
   // that is below sqrt(3) * (8u + 8u) * max < 32 u max; the tangential error of the weights counts squared only.
-  lower_ = nodes_[0].lower - Vector3d::Constant(mesh.room);
-  upper_ = nodes_[0].upper + Vector3d::Constant(mesh.room);
   const double largest = std::max(lower().cwiseAbs().maxCoeff(), upper().cwiseAbs().maxCoeff());
   rounding_ = 32 * 0x1p-53 * largest;
 }

@@ -25,8 +25,8 @@ struct MoveOptions {
 /// Where medial points are sought: on one side of the boundary, within a box.
 struct SideOptions {
   MeshSide side = MeshSide::kOutside;
-  /// In the units of the mesh: the box reaches this far beyond the bounding box of the mesh on all sides, at most ten
-  /// times its longest side. 0: half of the longest side.
+  /// In the units of the mesh: the box reaches this far beyond its bounding box on all sides (0: half of its longest
+  /// side L; at most 10 L), and 0.0144 L further at its lower corner, so that simple planes lie in no face of voxels.
   double margin = 0;
   unsigned threads = 0;  ///< Of the host, 0: one per core. The result does not depend on it.
 };
@@ -58,7 +58,7 @@ class IndexedMesh {
   /// The corners of the box in which they lie: the bounding box, or that of on_side().
   Point region_lower() const;
   Point region_upper() const;
-  /// The amount by which that box extends beyond the bounding box.
+  /// The margin of that box (SideOptions::margin), 0 for the bounding box.
   double margin() const;
 
   // A move is a copy, so that no object is ever empty.
@@ -80,7 +80,7 @@ class IndexedMesh {
   /// Follows vertices that have moved; their number is unchanged. The tree is refitted: results are as exact as those
   /// of a new tree, and nearly as fast while neighbours stay neighbours. Errors: kInvalidMesh (another number of
   /// vertices or flags, a coordinate that is not finite: the mesh is unchanged), kOutOfMemory (likewise). The box of
-  /// on_side() follows the bounding box.
+  /// on_side() follows the bounding box, and outside of an open mesh kTrustedNormal is dropped from the flags.
   Status move_vertices(std::span<const Point> vertices, const MoveOptions& options = {});
 
  private:

@@ -46,18 +46,22 @@ Status check_moved(const PreparedMesh& mesh, std::span<const Point> vertices, st
 // mesh as without a margin.
 constexpr double kMostMargin = 10;
 
+// (sqrt(5) - 1) / 86. It is irrational, so that no plane at a rational share of the box of the mesh lies in a face of
+// voxels (docs/theory.md, "The complement"). With the usual margin, faces of a box of which a side is all or half of
+// the longest are at least 0.04 of a voxel away from those at the resolutions that are usual.
+constexpr double kShift = 0.61803398874989485 / 43;
+
 Status check_side(const SideOptions& options, MeshSide present, double longest_side) {
   if (present != MeshSide::kInside) {
     return Error{ErrorCode::kUsage, "the mesh is that of the outside already: its side cannot be chosen again"};
   }
   if (options.margin >= 0 && options.margin <= kMostMargin * longest_side) return {};
-  return Error{ErrorCode::kUsage, "`margin` must be 0 to 10 times the longest side of the mesh"};
+  return Error{ErrorCode::kUsage, "`margin` must be above 0 and at most 10 times the longest side of the mesh"};
 }
 
 // Beside an open mesh, points outside lie behind triangles, too: of these no normal proves anything about the outside
 // (docs/theory.md, "The complement").
-void turn_over(PreparedMesh& mesh) {
-  for (Triangle& t : mesh.mesh.triangles) std::swap(t[1], t[2]);
+void drop_trust_of_open(PreparedMesh& mesh) {
   if (mesh.report.closed) return;
   for (std::uint8_t& flags : mesh.flags) {
     if ((flags & kTrustedNormal) != 0) flags = kUncrossed;
@@ -70,6 +74,8 @@ double IndexedMesh::Impl::room() const {
   if (!margin) return 0;
   return *margin > 0 ? *margin : 0.5 * prepared.report.longest_side();
 }
+
+double IndexedMesh::Impl::shift() const { return margin ? kShift * prepared.report.longest_side() : 0; }
 
 IndexedMesh::IndexedMesh(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
 
@@ -108,13 +114,15 @@ const Bvh& IndexedMesh::bvh() const { return impl_->bvh; }
 
 MeshSide IndexedMesh::side() const { return impl_->side; }
 
-double IndexedMesh::longest_side() const { return impl_->prepared.report.longest_side() + 2 * impl_->room(); }
+double IndexedMesh::longest_side() const {
+  return impl_->prepared.report.longest_side() + 2 * impl_->room() + impl_->shift();
+}
 
 double IndexedMesh::margin() const { return impl_->room(); }
 
 Point IndexedMesh::region_lower() const {
   const Point& lower = impl_->prepared.report.lower;
-  const double room = margin();
+  const double room = margin() + impl_->shift();
   return {lower[0] - room, lower[1] - room, lower[2] - room};
 }
 
@@ -132,7 +140,8 @@ Result<IndexedMesh> IndexedMesh::on_side(const SideOptions& options) const {
     turned->side = options.side;
     turned->margin = options.margin;
     if (options.side == MeshSide::kInside) return IndexedMesh(std::move(turned));
-    turn_over(turned->prepared);
+    for (Triangle& t : turned->prepared.mesh.triangles) std::swap(t[1], t[2]);
+    drop_trust_of_open(turned->prepared);
     const MeshView view = turned->prepared.view();
     Result<Bvh> bvh = Bvh::build(view, {.leaf_size = gpu::kMostLeafTriangles, .threads = options.threads});
     if (!bvh.ok()) return bvh.error();
@@ -150,6 +159,7 @@ Status IndexedMesh::move_vertices(std::span<const Point> vertices, const MoveOpt
     auto moved = std::make_shared<Impl>(*impl_);
     moved->prepared.mesh.vertices.assign(vertices.begin(), vertices.end());
     if (!flags.empty()) moved->prepared.flags.assign(flags.begin(), flags.end());
+    if (moved->side == MeshSide::kOutside) drop_trust_of_open(moved->prepared);
     const MeshView view = moved->prepared.view();
     if (Status status = moved->bvh.refit(view, {.threads = options.threads}); !status.ok()) return status;
     take_box(moved->bvh, moved->prepared.report);

@@ -16,8 +16,10 @@ struct IndexedMesh::Impl {
   MeshSide side = MeshSide::kInside;
   std::optional<double> margin = {};  // of on_side(); 0: half of the longest side
 
-  /// The amount by which the box of the search extends beyond the mesh.
+  /// The amount by which the box of the search extends beyond the mesh, at least.
   double room() const;
+  /// The further amount by which it does so at its lower corner, along each axis.
+  double shift() const;
 };
 
 }  // namespace medial_vk

@@ -112,7 +112,8 @@ What is looked for (lengths are fractions, so units do not matter):
                         which is no wall and is then the bounding box below
       --margin M        outside: how far that box reaches beyond the mesh, in
                         units of the mesh or with % of its longest side, up to
-                        1000% (default: half its longest side)
+                        1000% (default: half its longest side); at its
+                        lower corner 1.44% further
       --resolution N    voxels along the longest side of the bounding box,
                         1 to 4096 (default 160)
       --object-angle A  keep points whose object angle, half the angle between

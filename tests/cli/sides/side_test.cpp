@@ -125,7 +125,7 @@ TEST_F(SidesOfATool, TheLeastGapIsFoundWithTheOutside) {
 TEST_F(SidesOfATool, MarginsThatAreTooLargeAreErrorsOfUsage) {
   const ToolResult result = run_at("8", {"boxes.obj", "--side", "outside", "--margin", "14"});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("--margin must be 0 to 10 times the longest side"));
+  EXPECT_THAT(result.err, HasSubstr("--margin must be above 0 and at most 10 times the longest side"));
 }
 
 }  // namespace
