@@ -150,6 +150,7 @@ TEST(OutsideOfBoxes, AlongTheAxesIsSearchedWithTheUsualMargin) {
     const Found box = find_outside(test::make_box({1, 0.5, 0.25}), options);
     EXPECT_TRUE(box.spheres().empty());
     EXPECT_TRUE(box.result.extraction.undecided.empty());
+    EXPECT_GT(find_outside(test::make_l_shape(1, 0.25, 0.5), options).spheres().size(), 10u) << "in the notch";
     const Found boxes = find_outside(pair, options);
     EXPECT_GT(boxes.spheres().size(), 100u);
     EXPECT_TRUE(boxes.result.extraction.undecided.empty());
