@@ -179,6 +179,8 @@ double residual(const std::array<Plane, 3>& rows) {
 }  // namespace
 
 void polish(const SiteSet& sites, const std::array<Contact, 3>& contacts, Circle& circle) {
+  const auto joined = [&](int i, int k) { return sites.are_joined(contacts[i].site, contacts[k].site); };
+  if (joined(0, 1) || joined(0, 2) || joined(1, 2)) return;
   std::array<Plane, 3> rows;
   if (!linearise(sites, contacts, circle, rows)) return;
   const double before = residual(rows);

@@ -23,8 +23,9 @@ struct Circles {
 /// Squares lose digits: polish() is to follow.
 Circles rough_circles(const SiteSet& sites, const std::array<Contact, 3>& contacts, Vec2 near);
 
-/// One step of Newton's method on the three distances removes what squares have lost. It is taken where it helps: two
-/// contacts in nearly one direction, as a segment and its end, leave nothing but rounding in it.
+/// One step of Newton's method on the three distances removes what squares have lost. It is taken where it helps. A
+/// segment and its end leave nothing to remove, as the centre lies on the normal there: their distances differ by the
+/// square of its way along the segment, so a step would move it by the root of a rounding.
 void polish(const SiteSet& sites, const std::array<Contact, 3>& contacts, Circle& circle);
 
 }  // namespace medial_vk::plane
