@@ -18,10 +18,10 @@ constexpr double kRounding = 0x1p-40, kMostSlide = 0x1p-14;
 // Object angles this much above the threshold are wanted, of vertices that rounding may move.
 constexpr double kAbove = 0.01;
 
-PlanePoint sum(const PlanePoint& a, const PlanePoint& b, double share) {
+PlanePoint step_along(const PlanePoint& a, const PlanePoint& b, double share) {
   return {a[0] + share * b[0], a[1] + share * b[1]};
 }
-double apart(const PlanePoint& a, const PlanePoint& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
+double length_between(const PlanePoint& a, const PlanePoint& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
 
 /// A contact from a point: distance, and the unit direction away from it, along which the distance grows.
 struct Seen {
@@ -81,7 +81,7 @@ class Comparison {
   }
   PlanePoint along_of(const PlaneContact& line) const {
     const auto& [a, b] = shape_.segments[line.index];
-    const double length = apart(shape_.points[a], shape_.points[b]);
+    const double length = length_between(shape_.points[a], shape_.points[b]);
     return {(shape_.points[b][0] - shape_.points[a][0]) / length, (shape_.points[b][1] - shape_.points[a][1]) / length};
   }
 
@@ -92,7 +92,7 @@ class Comparison {
       return {std::fabs(height), {-sign * u[1], sign * u[0]}};
     }
     const PlanePoint& foot = shape_.points[contact.index];
-    const double d = apart(foot, x);
+    const double d = length_between(foot, x);
     return {d, d > 0 ? PlanePoint{(x[0] - foot[0]) / d, (x[1] - foot[1]) / d} : PlanePoint{0, 0}};
   }
 
@@ -108,7 +108,7 @@ class Comparison {
       for (std::size_t i = 0; i < seen.size(); ++i) {
         seen[i] = see(given.contacts[i], result.point);
         mean += seen[i].distance / static_cast<double>(seen.size());
-        middle = sum(middle, seen[i].away, 1 / static_cast<double>(seen.size()));
+        middle = step_along(middle, seen[i].away, 1 / static_cast<double>(seen.size()));
       }
       for (const Seen& s : seen) {
         const double ux = s.away[0] - middle[0], uy = s.away[1] - middle[1], off = s.distance - mean;
@@ -123,7 +123,7 @@ class Comparison {
         for (const PlaneContact& point : given.contacts) {
           if (!is_end(point, line)) continue;
           const PlanePoint along = along_of(line);
-          const PlanePoint from = sum(result.point, shape_.points[point.index], -1);
+          const PlanePoint from = step_along(result.point, shape_.points[point.index], -1);
           const double off = along[0] * from[0] + along[1] * from[1];
           xx += along[0] * along[0];
           xy += along[0] * along[1];
@@ -136,7 +136,7 @@ class Comparison {
       least = half > 0 ? det / (half + std::sqrt(std::max(0.0, half * half - det))) : 0;
       result.radius = mean;
       if (step == 3 || !(least > 0x1p-60)) break;
-      result.point = sum(result.point, {(yy * bx - xy * by) / det, (xx * by - xy * bx) / det}, 1);
+      result.point = step_along(result.point, {(yy * bx - xy * by) / det, (xx * by - xy * bx) / det}, 1);
     }
     result.slide = least > 0x1p-60 ? kRounding * size_ / std::sqrt(least) : size_;
     for (const Seen& a : seen) {
@@ -152,11 +152,11 @@ class Comparison {
   /// An upper bound, exact to first order near the axis.
   double distance_from_axis(const PlanePoint& x) const {
     double best = std::numeric_limits<double>::infinity();
-    for (const AxisNode& node : axis_.nodes) best = std::min(best, apart(node.point, x));
+    for (const AxisNode& node : axis_.nodes) best = std::min(best, length_between(node.point, x));
     for (const AxisArc& arc : axis_.arcs) {
       const PlaneCurve& curve = arc.curve;
       const double along = curve.along[0] * (x[0] - curve.origin[0]) + curve.along[1] * (x[1] - curve.origin[1]);
-      best = std::min(best, apart(curve.point_at(std::clamp(along, arc.t[0], arc.t[1])), x));
+      best = std::min(best, length_between(curve.point_at(std::clamp(along, arc.t[0], arc.t[1])), x));
     }
     return best;
   }
@@ -164,7 +164,7 @@ class Comparison {
   void check_vertices() {
     for (const OtherDiagram::Vertex& given : other_.vertices) {
       Vertex vertex = made_exact(given);
-      if (apart(vertex.point, {scale_ * given.point[0], scale_ * given.point[1]}) > 1e-3 * size_) {
+      if (length_between(vertex.point, {scale_ * given.point[0], scale_ * given.point[1]}) > 1e-3 * size_) {
         vertex.point = {scale_ * given.point[0], scale_ * given.point[1]};
         vertex.slide = size_;
       }
@@ -187,7 +187,7 @@ class Comparison {
         say("missed vertex", vertex.point, distance / size_);
       }
       const auto is_here = [&](const AxisNode& n) {
-        return apart(n.point, vertex.point) <= kNear * size_ + 2 * vertex.slide;
+        return length_between(n.point, vertex.point) <= kNear * size_ + 2 * vertex.slide;
       };
       if (std::ranges::none_of(axis_.nodes, is_here)) {
         ++counts_.missed_nodes;
@@ -202,10 +202,10 @@ class Comparison {
     PlanePoint x = {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2};
     for (int step = 0; step < 6; ++step) {
       const Seen s = see(edge.contacts[0], x), t = see(edge.contacts[1], x);
-      const PlanePoint gradient = sum(s.away, t.away, -1);
+      const PlanePoint gradient = step_along(s.away, t.away, -1);
       const double squared = gradient[0] * gradient[0] + gradient[1] * gradient[1];
       if (!(squared > 0x1p-40)) return {};
-      x = sum(x, gradient, -(s.distance - t.distance) / squared);
+      x = step_along(x, gradient, -(s.distance - t.distance) / squared);
     }
     return x;
   }
@@ -213,7 +213,7 @@ class Comparison {
   void check_edges() {
     for (const OtherDiagram::Edge& edge : other_.edges) {
       const Vertex &a = vertices_[edge.vertices[0]], &b = vertices_[edge.vertices[1]];
-      if (apart(a.point, b.point) < 8 * kNear * size_ + a.slide + b.slide) continue;
+      if (length_between(a.point, b.point) < 8 * kNear * size_ + a.slide + b.slide) continue;
       const std::optional<PlanePoint> x = middle_of(edge);
       if (!x) continue;
       const Seen s = see(edge.contacts[0], *x), t = see(edge.contacts[1], *x);
@@ -240,7 +240,7 @@ class Comparison {
     for (const AxisNode& node : axis_.nodes) {
       if (node.kind != AxisNodeKind::kMeeting || node.degree == 2) continue;
       const auto is_here = [&](const Vertex& v) {
-        return apart(v.point, node.point) <= kNear * size_ + 2 * std::min(v.slide, kMostSlide * size_);
+        return length_between(v.point, node.point) <= kNear * size_ + 2 * std::min(v.slide, kMostSlide * size_);
       };
       if (std::ranges::any_of(vertices_, is_here)) continue;
       ++counts_.unknown_nodes;
