@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <numeric>
 #include <utility>
 
 #include "base/parallel.h"
@@ -32,7 +31,9 @@ void measure(Cell& cell) {
   Vec2 sum;
   for (const Vec2 corner : cell.corners) sum = sum + corner;
   cell.centre = (1 / static_cast<double>(cell.corners.size())) * sum;
-  for (const Vec2 corner : cell.corners) cell.reach = std::max(cell.reach, distance(corner, cell.centre));
+  double squared = 0;
+  for (const Vec2 corner : cell.corners) squared = std::max(squared, dot(corner - cell.centre, corner - cell.centre));
+  cell.reach = std::sqrt(squared);
 }
 
 }  // namespace
@@ -72,8 +73,8 @@ class CellTreeBuilder {
     std::vector<std::uint32_t> sites;
   };
 
-  CellTreeBuilder(const SiteSet& sites, const DiagramQuery& query, const LoopWatch& watch)
-      : lists_(sites, query), watch_(watch) {}
+  CellTreeBuilder(const SiteSet& sites, const NeededSites& needed, const DiagramQuery& query, const LoopWatch& watch)
+      : lists_(sites, needed, query), watch_(watch) {}
 
   /// The half of a divided cell on one side of its cut; its node has corners and sites only where it is not divided.
   CellState half_of(const Open& parent, double sign, Open& half) {
@@ -145,10 +146,9 @@ namespace {
 
 using Open = CellTreeBuilder::Open;
 
-Open root_of(const SiteSet& sites, const DiagramQuery& query) {
+Open root_of(const NeededSites& needed, const DiagramQuery& query) {
   Open root;
-  root.sites.resize(sites.size());
-  std::iota(root.sites.begin(), root.sites.end(), 0u);
+  root.sites = needed.list;
   for (const Vec2 way : {Vec2{-1, -1}, Vec2{1, -1}, Vec2{1, 1}, Vec2{-1, 1}}) {
     root.corners.push_back(query.centre + query.half * way);
   }
@@ -164,7 +164,8 @@ CellTree CellTree::build(const SiteSet& sites, const DiagramQuery& query, const 
   tree.half_ = query.half;
   tree.nodes_.resize(1);
   std::vector<Open> open;
-  open.push_back(root_of(sites, query));
+  const NeededSites needed(sites, query.wanted);
+  open.push_back(root_of(needed, query));
   for (int level = 0; level < kSharedLevels; ++level) {
     std::vector<Open> halves(2 * open.size());
     std::vector<CellState> states(2 * open.size(), CellState::kDivided);
@@ -172,7 +173,7 @@ CellTree CellTree::build(const SiteSet& sites, const DiagramQuery& query, const 
     parallel_for(halves.size(), 1, query.threads, [&](std::size_t i) {
       watch.check();
       if (!is_large(i / 2)) return;
-      states[i] = CellTreeBuilder(sites, query, watch).half_of(open[i / 2], i % 2 == 0 ? 1 : -1, halves[i]);
+      states[i] = CellTreeBuilder(sites, needed, query, watch).half_of(open[i / 2], i % 2 == 0 ? 1 : -1, halves[i]);
     });
     std::vector<Open> next;
     for (std::size_t i = 0; i < open.size(); ++i) {
@@ -196,7 +197,7 @@ CellTree CellTree::build(const SiteSet& sites, const DiagramQuery& query, const 
   std::vector<CellTree> branches(open.size());
   parallel_for(open.size(), 1, query.threads, [&](std::size_t i) {
     const std::size_t most = query.cells_of_branch + 32 * open[i].sites.size();
-    branches[i] = CellTreeBuilder(sites, query, watch).branch(open[i], most);
+    branches[i] = CellTreeBuilder(sites, needed, query, watch).branch(open[i], most);
   });
   for (std::size_t i = 0; i < open.size(); ++i) tree.graft(open[i].node, branches[i]);
   return tree;

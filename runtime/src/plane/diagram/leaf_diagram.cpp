@@ -1,6 +1,7 @@
 #include "plane/diagram/leaf_diagram.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -9,21 +10,13 @@ namespace medial_vk::plane {
 namespace {
 
 constexpr std::size_t kManyContacts = 24;
+constexpr double kShortSide = 0x1p-46;
 constexpr double kFar = std::numeric_limits<double>::infinity();  // a radius above every threshold
 
 /// From a point to a contact.
 double distance_to(const SiteSet& sites, Contact contact, Vec2 x) {
   if (sites.is_point(contact.site)) return distance(sites.point(contact.site), x);
   return sites.segment(contact.site).height(x, contact.side);
-}
-
-bool is_in(const Cell& cell, const Circle& circle) {
-  const double slack = tie(circle.radius);
-  for (std::size_t i = 0; i < cell.corners.size(); ++i) {
-    const Vec2 corner = cell.corners[i], side = cell.corners[(i + 1) % cell.corners.size()] - corner;
-    if (cross(side, circle.centre - corner) < -slack * length(side)) return false;
-  }
-  return true;
 }
 
 Vec2 direction_to(const SiteSet& sites, Contact contact, Vec2 x) {
@@ -110,49 +103,69 @@ double greatest_object_angle(const SiteSet& sites, Wanted wanted, std::span<cons
 }
 
 void LeafDiagram::find(const Cell& cell, DiagramParts& parts) {
-  set_contacts(cell);
+  contacts_.set(cell);
+  set_sides(cell);
   find_vertices(cell, parts);
   find_crossing_pairs(cell, parts);
 }
 
-/// A segment counts on the sides that are wanted and that the cell lies on.
-void LeafDiagram::set_contacts(const Cell& cell) {
-  contacts_.clear();
-  for (const std::uint32_t site : cell.sites) {
-    if (sites_.is_point(site)) {
-      contacts_.push_back({site, Side::kLeft});
-      continue;
-    }
-    for (const Side side : {Side::kLeft, Side::kRight}) {
-      const auto is_beside = [&](Vec2 corner) { return sites_.segment(site).height(corner, side) > -tie(1); };
-      if (allows(query_.wanted, side) && std::ranges::any_of(cell.corners, is_beside))
-        contacts_.push_back({site, side});
-    }
+/// Sides so short that rounding decides where they point are left out.
+void LeafDiagram::set_sides(const Cell& cell) {
+  sides_.clear();
+  for (std::size_t i = 0; i < cell.corners.size(); ++i) {
+    const Vec2 corner = cell.corners[i], side = cell.corners[(i + 1) % cell.corners.size()] - corner;
+    if (length(side) < kShortSide) continue;
+    const Vec2 normal = left_of(unit(side));
+    sides_.push_back({normal, dot(normal, corner)});
   }
+}
+
+bool LeafDiagram::is_in_cell(const Cell& cell, const Circle& circle) const {
+  const double slack = tie(circle.radius);
+  return distance(circle.centre, cell.centre) <= cell.reach + slack &&
+         std::ranges::all_of(sides_, [&](const Line& side) { return side.height(circle.centre) >= -slack; });
+}
+
+/// Pairs that no vertex has.
+bool LeafDiagram::excludes(Contact a, Contact b) const {
+  const bool are_segments = !sites_.is_point(a.site) && !sites_.is_point(b.site);
+  return are_segments && query_.wanted != Wanted::kBetweenOwners && a.side != b.side;
 }
 
 void LeafDiagram::find_vertices(const Cell& cell, DiagramParts& parts) {
   circles_.clear();
-  const auto excludes = [&](Contact a, Contact b) {
-    if (a.site == b.site) return true;
-    const bool are_segments = !sites_.is_point(a.site) && !sites_.is_point(b.site);
-    return are_segments && query_.wanted != Wanted::kBetweenOwners && a.side != b.side;
-  };
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    for (std::size_t j = i + 1; j < contacts_.size(); ++j) {
-      if (excludes(contacts_[i], contacts_[j])) continue;
-      for (std::size_t k = j + 1; k < contacts_.size(); ++k) {
-        if (excludes(contacts_[i], contacts_[k]) || excludes(contacts_[j], contacts_[k])) continue;
-        const std::array<Contact, 3> three = {contacts_[i], contacts_[j], contacts_[k]};
-        const Circles circles = circles_through(sites_, three, cell.centre);
-        for (int n = 0; n < circles.count; ++n) {
-          const Circle& circle = circles.circles[static_cast<std::size_t>(n)];
-          const auto is_touched = [&](Contact c) { return touches(c, circle); };
-          if (is_in(cell, circle) && std::ranges::all_of(three, is_touched) && is_empty(sites_, cell.sites, circle)) {
-            add_vertex(circle, parts);
-          }
-        }
+  const std::vector<Contact>& all = contacts_.all();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::uint64_t later = contacts_.partners(i); later != 0; later &= later - 1) {
+      const auto j = static_cast<std::size_t>(std::countr_zero(later));
+      if (excludes(all[i], all[j])) continue;
+      for (std::uint64_t both = later & contacts_.partners(j); both != 0; both &= both - 1) {
+        const auto k = static_cast<std::size_t>(std::countr_zero(both));
+        if (excludes(all[i], all[k]) || excludes(all[j], all[k])) continue;
+        try_circles(cell, {all[i], all[j], all[k]}, parts);
       }
+    }
+  }
+}
+
+/// A step of Newton's method leaves an error of the second order in the one that it removes: from an error e of a
+/// circle of radius r, about e^2 / r. A circle that is accepted within tie(r) was nearer than 2^-20 r before; this test
+/// allows 2^-16 r, and leaves out those that even so lie outside, or have a site inside.
+bool LeafDiagram::can_become_vertex(const Cell& cell, const Circle& rough) const {
+  const double loose = 0x1p-16 * (rough.radius + cell.reach), least = rough.radius - 2 * loose;
+  return std::ranges::all_of(sides_, [&](const Line& side) { return side.height(rough.centre) >= -loose; }) &&
+         std::ranges::all_of(cell.sites, [&](std::uint32_t s) { return sites_.distance_to(s, rough.centre) >= least; });
+}
+
+void LeafDiagram::try_circles(const Cell& cell, const std::array<Contact, 3>& three, DiagramParts& parts) {
+  const Circles rough = rough_circles(sites_, three, cell.centre);
+  for (int n = 0; n < rough.count; ++n) {
+    Circle circle = rough.circles[static_cast<std::size_t>(n)];
+    if (!can_become_vertex(cell, circle)) continue;
+    polish(sites_, three, circle);
+    const auto is_touched = [&](Contact c) { return touches(c, circle); };
+    if (is_in_cell(cell, circle) && std::ranges::all_of(three, is_touched) && is_empty(sites_, cell.sites, circle)) {
+      add_vertex(circle, parts);
     }
   }
 }
@@ -163,7 +176,7 @@ void LeafDiagram::add_vertex(const Circle& circle, DiagramParts& parts) {
   }
   circles_.push_back(circle);
   touching_.clear();
-  for (const Contact contact : contacts_) {
+  for (const Contact contact : contacts_.all()) {
     if (touches(contact, circle)) touching_.push_back(contact);
   }
   // The vertex ends salient edges even where no pair is salient there.
@@ -186,31 +199,31 @@ void LeafDiagram::add_pair(Contact a, Contact b, DiagramParts& parts) const {
 
 /// An edge of the diagram ends at vertices. One without a vertex in the cell crosses its border.
 void LeafDiagram::find_crossing_pairs(const Cell& cell, DiagramParts& parts) {
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    for (std::size_t k = i + 1; k < contacts_.size(); ++k) {
-      if (!can_pair(sites_, query_.wanted, contacts_[i], contacts_[k])) continue;
-      if (is_crossed(cell, contacts_[i], contacts_[k])) add_pair(contacts_[i], contacts_[k], parts);
+  const std::vector<Contact>& all = contacts_.all();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::uint64_t later = contacts_.partners(i); later != 0; later &= later - 1) {
+      const Contact a = all[i], b = all[static_cast<std::size_t>(std::countr_zero(later))];
+      if (!can_pair(sites_, query_.wanted, a, b)) continue;
+      const std::optional<Bisector> curve = bisector_of(sites_, a, b);
+      if (!curve || curve->reach(query_.least_angle(kFar)) < 0) continue;
+      if (is_crossed(cell, a, b, *curve)) parts.pairs.push_back({std::min(a, b), std::max(a, b)});
     }
   }
 }
 
-bool LeafDiagram::is_crossed(const Cell& cell, Contact a, Contact b) const {
-  const std::optional<Bisector> curve = bisector_of(sites_, a, b);
-  if (!curve) return false;
-  if (curve->reach(query_.least_angle(kFar)) < 0) return false;
-  for (std::size_t i = 0; i < cell.corners.size(); ++i) {
-    const Vec2 corner = cell.corners[i], normal = left_of(cell.corners[(i + 1) % cell.corners.size()] - corner);
-    const auto crossings = curve->with_line(normal, dot(normal, corner));
+bool LeafDiagram::is_crossed(const Cell& cell, Contact a, Contact b, const Bisector& curve) const {
+  return std::ranges::any_of(sides_, [&](const Line& side) {
+    const auto crossings = curve.with_line(side.normal, side.value);
     for (int n = 0; n < crossings.count; ++n) {
       const double t = crossings.t[static_cast<std::size_t>(n)];
-      const Circle circle = {curve->at(t), curve->radius_at(t)};
-      if (circle.radius > 0 && is_in(cell, circle) && touches(a, circle) && touches(b, circle) &&
+      const Circle circle = {curve.at(t), curve.radius_at(t)};
+      if (circle.radius > 0 && is_in_cell(cell, circle) && touches(a, circle) && touches(b, circle) &&
           is_empty(sites_, cell.sites, circle)) {
         return true;
       }
     }
-  }
-  return false;
+    return false;
+  });
 }
 
 }  // namespace medial_vk::plane

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "plane/diagram/cell_tree.h"
+#include "plane/diagram/leaf_contacts.h"
 #include "plane/sites/equidistant.h"
 
 namespace medial_vk::plane {
@@ -42,25 +42,32 @@ bool is_empty(const SiteSet& sites, std::span<const std::uint32_t> list, const C
 /// An object is used by one thread.
 class LeafDiagram {
  public:
-  LeafDiagram(const SiteSet& sites, const DiagramQuery& query) : sites_(sites), query_(query) {}
+  LeafDiagram(const SiteSet& sites, const DiagramQuery& query)
+      : sites_(sites), query_(query), contacts_(sites, query.wanted) {}
 
   /// Appends to `parts` what lies in the cell.
   void find(const Cell& cell, DiagramParts& parts);
 
  private:
-  void set_contacts(const Cell& cell);
+  void set_sides(const Cell& cell);
   void find_vertices(const Cell& cell, DiagramParts& parts);
+  void try_circles(const Cell& cell, const std::array<Contact, 3>& three, DiagramParts& parts);
+  bool can_become_vertex(const Cell& cell, const Circle& rough) const;
   void add_vertex(const Circle& circle, DiagramParts& parts);
   void add_pair(Contact a, Contact b, DiagramParts& parts) const;
+  bool excludes(Contact a, Contact b) const;
   void find_crossing_pairs(const Cell& cell, DiagramParts& parts);
-  bool is_crossed(const Cell& cell, Contact a, Contact b) const;
+  bool is_crossed(const Cell& cell, Contact a, Contact b, const Bisector& curve) const;
+  bool is_in_cell(const Cell& cell, const Circle& circle) const;
   bool touches(Contact contact, const Circle& circle) const {
     return can_touch(sites_, query_.wanted, contact, circle);
   }
 
   const SiteSet& sites_;
   const DiagramQuery& query_;
-  std::vector<Contact> contacts_, touching_;
+  LeafContacts contacts_;
+  std::vector<Line> sides_;  // of the cell, which is on the left of each
+  std::vector<Contact> touching_;
   std::vector<Circle> circles_;  // of the cell
 };
 

@@ -33,7 +33,7 @@ Vec2 Bisector::at(double t) const {
 double Bisector::radius_at(double t) const {
   switch (kind_) {
     case Kind::kOfPoints:
-      return std::hypot(focus_, t);
+      return std::sqrt(focus_ * focus_ + t * t);
     case Kind::kMixed:
       return rise(t);
     case Kind::kOfSegments:

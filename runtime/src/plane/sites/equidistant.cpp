@@ -1,7 +1,6 @@
 #include "plane/sites/equidistant.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace medial_vk::plane {
 namespace {
@@ -35,11 +34,15 @@ bool meet(const Plane& a, const Plane& b, const Plane& c, Position& point) {
 /// The equations of three sites, in coordinates from `near`.
 class System {
  public:
-  System(const SiteSet& sites, const std::array<Contact, 3>& contacts, Vec2 near)
-      : sites_(sites), contacts_(contacts), near_(near) {
-    const auto is_segment = [&](Contact c) { return !sites.is_point(c.site); };
-    std::stable_partition(contacts_.begin(), contacts_.end(), is_segment);
-    for (const Contact& c : contacts_) points_ += sites.is_point(c.site) ? 1 : 0;
+  System(const SiteSet& sites, const std::array<Contact, 3>& contacts, Vec2 near) : sites_(sites), near_(near) {
+    std::size_t segments = 0;  // they come first
+    for (const Contact& c : contacts) {
+      if (!sites.is_point(c.site)) contacts_[segments++] = c;
+    }
+    points_ = 3 - static_cast<int>(segments);
+    for (const Contact& c : contacts) {
+      if (sites.is_point(c.site)) contacts_[segments++] = c;
+    }
   }
 
   Circles solve() {
@@ -173,9 +176,11 @@ double residual(const std::array<Plane, 3>& rows) {
   return std::max({std::fabs(rows[0].value), std::fabs(rows[1].value), std::fabs(rows[2].value)});
 }
 
-/// One step of Newton's method removes what squares have lost. It is taken where it helps: two contacts in nearly one
-/// direction, as a segment and its end, leave nothing but rounding in it.
+}  // namespace
+
 void polish(const SiteSet& sites, const std::array<Contact, 3>& contacts, Circle& circle) {
+  const auto joined = [&](int i, int k) { return sites.are_joined(contacts[i].site, contacts[k].site); };
+  if (joined(0, 1) || joined(0, 2) || joined(1, 2)) return;
   std::array<Plane, 3> rows;
   if (!linearise(sites, contacts, circle, rows)) return;
   const double before = residual(rows);
@@ -185,12 +190,8 @@ void polish(const SiteSet& sites, const std::array<Contact, 3>& contacts, Circle
   if (next.radius > 0 && linearise(sites, contacts, next, rows) && residual(rows) < before) circle = next;
 }
 
-}  // namespace
-
-Circles circles_through(const SiteSet& sites, const std::array<Contact, 3>& contacts, Vec2 near) {
-  Circles found = System(sites, contacts, near).solve();
-  for (int i = 0; i < found.count; ++i) polish(sites, contacts, found.circles[static_cast<std::size_t>(i)]);
-  return found;
+Circles rough_circles(const SiteSet& sites, const std::array<Contact, 3>& contacts, Vec2 near) {
+  return System(sites, contacts, near).solve();
 }
 
 }  // namespace medial_vk::plane

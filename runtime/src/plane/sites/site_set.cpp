@@ -92,7 +92,12 @@ double SiteSet::outside_of_region(std::uint32_t site, Vec2 x) const {
 }
 
 Side SiteSet::side_of(std::uint32_t site, Vec2 x) const {
-  if (!is_point(site)) return segment(site).height(x, Side::kLeft) >= 0 ? Side::kLeft : Side::kRight;
+  if (!is_point(site)) {
+    const Segment& s = segment(site);
+    const double position = s.position(x);
+    if (position >= 0 && position <= s.length) return s.height(x, Side::kLeft) >= 0 ? Side::kLeft : Side::kRight;
+    site = s.ends[position < 0 ? 0 : 1];
+  }
   Side side = Side::kLeft;
   double greatest = -std::numeric_limits<double>::infinity();
   for (const std::uint32_t s : segments_of(site)) {

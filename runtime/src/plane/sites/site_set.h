@@ -57,8 +57,8 @@ class SiteSet {
   Vec2 foot(std::uint32_t site, Vec2 x) const;
   /// By how much x lies outside of the region where the site can be nearest, at most 0 within.
   double outside_of_region(std::uint32_t site, Vec2 x) const;
-  /// The side of the boundary on which x lies, whose nearest site is `site`: of a point, the segment at the least angle
-  /// decides. A point without segments has no side, and gives left.
+  /// The side of the boundary on which x lies, whose nearest site is `site`, a segment with its ends: of a point, the
+  /// segment at the least angle decides. A point without segments has no side, and gives left.
   Side side_of(std::uint32_t site, Vec2 x) const;
 
   /// Of a point: its segments, by site, in angular order.
