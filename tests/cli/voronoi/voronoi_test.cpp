@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -134,6 +135,31 @@ TEST_F(VoronoiCommand, ShapesOfThePlaneHaveCurvesBetweenThem) {
   const ToolResult crossing = run({"one.csv", "across.csv"});
   EXPECT_EQ(crossing.exit_code, 3);
   EXPECT_THAT(crossing.err, HasSubstr("must be apart"));
+}
+
+TEST_F(VoronoiCommand, ShapesOfThePlaneThatTouchAreRefused) {
+  const std::string square = "x,y\n0,0\n1,0\n1,1\n0,1\n";
+  const std::string triangle = "x,y\n0,0\n1,0\n0.5,1\n";
+  const std::vector<std::array<std::string, 3>> cases = {
+      {"the same shape", square, square},
+      {"a common corner", square, "x,y\n1,1\n2,1\n2,2\n1,2\n"},
+      {"a common corner within the tolerance", square, "x,y\n1.00000000000001,1\n2,1\n2,2\n1,2\n"},
+      {"a common vertex of triangles", triangle, "x,y\n0.5,1\n1,2\n0,2\n"},
+      {"a vertex on an edge", square, "x,y\n1,0.5\n2,0\n2,1\n"},
+      {"a common edge", square, "x,y\n1,0\n2,0\n2,1\n1,1\n"},
+      {"one in the other", square, "x,y\n0.2,0.2\n0.8,0.2\n0.8,0.8\n"}};
+  for (const auto& [name, first, second] : cases) {
+    write_file(scratch_.path("first.csv"), first);
+    write_file(scratch_.path("second.csv"), second);
+    const ToolResult result = run({"first.csv", "second.csv"});
+    EXPECT_EQ(result.exit_code, 3) << name;
+    EXPECT_THAT(result.err, HasSubstr("must be apart")) << name;
+  }
+  // Shapes in a hole, and shapes whose rings touch themselves, are apart from others.
+  write_file(scratch_.path("first.wkt"), "POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0), (3 3, 3 6, 6 6, 6 3, 3 3))");
+  write_file(scratch_.path("second.wkt"), "MULTIPOLYGON (((4 4, 5 4, 4.5 4.5, 4 4)), ((4.5 4.5, 5 5, 4 5, 4.5 4.5)))");
+  const ToolResult apart = run({"first.wkt", "second.wkt"});
+  EXPECT_EQ(apart.exit_code, 0) << apart.err;
 }
 
 TEST_F(VoronoiCommand, WrongUseAndInvalidSitesHaveTheirExitCodes) {
