@@ -28,7 +28,7 @@ struct SitePath {
   static constexpr std::uint32_t kNoPoint = 0xffffffffu;
 
   std::vector<Point> line;            ///< From the first place to the last.
-  std::vector<std::uint32_t> points;  ///< By point of the line: that of SiteVoronoi::points; kNoPoint of both ends.
+  std::vector<std::uint32_t> points;  ///< By point of the line: that of SiteVoronoi::points; kNoPoint of others.
   double width = 0;
   double length = 0;
 };
@@ -50,9 +50,10 @@ class SiteRoadmap {
   const std::vector<std::uint32_t>& component_of_point() const;
   std::uint32_t components() const;
 
-  /// Of the paths on the graph with the greatest width, the shortest, from and to any place: the lines from a place to
-  /// the graph are chosen among the points around it. None: no such lines are found, or both ends are in different
-  /// components. Errors: kUsage (a place that is not finite, inside of a solid or on a site), kOutOfMemory.
+  /// Of the paths on the graph with the greatest width, the shortest, from and to any place. A path beside the graph
+  /// may be wider. Lines join a place to points around it, and to a few places farther from the nearest site; if there
+  /// is no path then, all points are tried. None: no such lines are found, or both ends are in different components.
+  /// Errors: kUsage (a place that is not finite or beyond 1e75, inside of a solid or on a site), kOutOfMemory.
   Result<std::optional<SitePath>> widest_path(const Point& from, const Point& to) const;
 
  private:
@@ -61,5 +62,9 @@ class SiteRoadmap {
 
   std::shared_ptr<const Impl> impl_;
 };
+
+/// Tests the ends of a path before a roadmap is made. Errors: those of find_site_voronoi() about sites, and those of
+/// widest_path() about ends, except for places within a few roundings of a site.
+Status check_path_ends(std::span<const VoronoiSite> sites, const Point& from, const Point& to, unsigned threads = 0);
 
 }  // namespace medial_vk

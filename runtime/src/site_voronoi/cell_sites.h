@@ -57,6 +57,9 @@ class CellStack {
   /// The site nearest to the middle.
   std::uint32_t nearest_site(const CellRange& range) const { return sites_[range.begin].site; }
 
+  /// Its distance there.
+  double least_distance(const CellRange& range) const { return sites_[range.begin].distance; }
+
   double rounding() const { return rounding_; }
   std::uint64_t narrowed() const { return narrowed_; }
 

@@ -125,11 +125,14 @@ void make_pieces(SiteVoronoi& voronoi) {
 
 }  // namespace
 
-void make_surface(std::vector<SitePoint> points, std::vector<GridEdge> edges, SiteVoronoi& voronoi) {
+void make_surface(std::vector<SitePoint> points, std::vector<GridEdge> edges, const LoopWatch& watch,
+                  SiteVoronoi& voronoi) {
   std::ranges::sort(points, [](const SitePoint& a, const SitePoint& b) { return is_earlier_voxel(a.voxel, b.voxel); });
+  watch.check();
   std::ranges::sort(edges, [](const GridEdge& a, const GridEdge& b) {
     return a.voxel != b.voxel ? is_earlier_voxel(a.voxel, b.voxel) : a.axis < b.axis;
   });
+  watch.check();
   const std::vector<std::uint32_t> first = first_at_place(points);
   std::vector<std::uint32_t> kept(points.size());
   for (std::uint32_t i = 0; i < points.size(); ++i) {
@@ -140,10 +143,12 @@ void make_surface(std::vector<SitePoint> points, std::vector<GridEdge> edges, Si
     kept[i] = static_cast<std::uint32_t>(voronoi.points.size());
     voronoi.points.push_back(points[i]);
   }
+  watch.check();
   const FaceMaker maker(points, kept);
   for (const GridEdge& edge : edges) {
     if (const std::optional<SiteFace> face = maker.face_around(edge)) voronoi.faces.push_back(*face);
   }
+  watch.check();
   make_pieces(voronoi);
 }
 

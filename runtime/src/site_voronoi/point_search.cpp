@@ -11,8 +11,7 @@ namespace {
 constexpr unsigned kMostSteps = 12;      // of Newton's method, which needs two to four on smooth parts
 constexpr unsigned kMostHalvings = 200;  // a secant between doubles needs few
 constexpr unsigned kSubdivisions = 6;    // of a voxel
-constexpr unsigned kSubdivisionsIfRejected = 2;
-constexpr std::uint32_t kMostCells = 4000;  // of one voxel
+constexpr unsigned kSubdivisionsIfTied = 2;
 constexpr double kLeastObjectAngle = 0x1p-13;
 constexpr double kLeastRoundings = 0x1p17;  // of the distance: directions are known within the angle above then
 
@@ -41,30 +40,48 @@ Point PointSearch::corner(unsigned i) const {
 }
 
 VoxelOutcome PointSearch::search(const CellRange& sites, const SiteCell& voxel,
-                                 const std::array<std::uint32_t, 8>& labels) {
+                                 const std::array<std::uint32_t, 8>& labels, std::uint32_t most_cells) {
   voxel_ = voxel;
+  most_cells_ = most_cells;
   reference_ = voxel.middle;
   rejected_tied_ = rejected_overlapping_ = false;
   overlaps_.clear();
   cells_ = 0;
   stack_.recall(sites, distances_);
   reference_label_ = distances_.front().site;
-  const double clear = distances_.front().distance;
+  // Without a boundary in it, the voxel is on one side of each as a whole.
+  has_boundary_ = may_meet_boundary(sites, voxel);
+  if (!has_boundary_) {
+    const std::uint32_t solid = forest_.solid_around(voxel.middle);
+    if (solid < forest_.size()) return inside_of(solid);
+  }
   Found found = from_measured(sites, voxel.middle);
   if (found == Found::kNo) found = between_corners(sites, labels);
   if (found == Found::kYes) {
     improve(sites);
     return VoxelOutcome::kPoint;
   }
-  // Without a boundary in it, the voxel is inside of a solid as a whole where one of its points is.
-  const bool has_boundary = clear <= std::sqrt(3.0) * voxel.half + 4 * stack_.rounding();
-  if (rejected_overlapping_ && !has_boundary) return VoxelOutcome::kOverlapping;
   VoxelOutcome outcome = subdivide(sites, voxel, 0);
   if (outcome == VoxelOutcome::kPoint) improve(sites);
-  if (outcome == VoxelOutcome::kUndecided && (rejected_tied_ || rejected_overlapping_)) {
-    outcome = rejected_overlapping_ ? VoxelOutcome::kOverlapping : VoxelOutcome::kTied;
-  }
+  // All that is left of the voxel is inside of a solid, or too much is left to tell.
+  if (outcome == VoxelOutcome::kEmpty && rejected_overlapping_) return VoxelOutcome::kOverlapping;
+  if (outcome == VoxelOutcome::kUndecided && rejected_tied_ && !rejected_overlapping_) return VoxelOutcome::kTied;
   return outcome;
+}
+
+/// False only if no point of a boundary is in the cube, whose sites are given.
+bool PointSearch::may_meet_boundary(const CellRange& sites, const SiteCell& cell) const {
+  return stack_.least_distance(sites) <= std::sqrt(3.0) * cell.half + 4 * stack_.rounding();
+}
+
+/// A voxel wholly inside of a solid has no point of the surface. Another solid is around its middle too, or the way to
+/// the nearest site does not leave the solid: then both sites overlap.
+VoxelOutcome PointSearch::inside_of(std::uint32_t solid) {
+  const std::uint32_t second = forest_.solid_around(voxel_.middle, solid + 1);
+  const std::uint32_t other = second < forest_.size() ? second : reference_label_;
+  if (other == solid) return VoxelOutcome::kEmpty;
+  overlaps_.push_back({std::min(solid, other), std::max(solid, other)});
+  return VoxelOutcome::kOverlapping;
 }
 
 /// Newton's method for the difference of the distances to two elements, within the voxel.
@@ -158,9 +175,16 @@ PointSearch::Found PointSearch::look_at(const CellRange& child, const SiteCell& 
   return from_measured(child, cell.middle);
 }
 
+/// True only if no point of the cube is outside of all solids. Looked for where solids are known to overlap.
+bool PointSearch::is_inside_solid(const CellRange& sites, const SiteCell& cell) const {
+  return rejected_overlapping_ && !may_meet_boundary(sites, cell) && forest_.solid_around(cell.middle) < forest_.size();
+}
+
 VoxelOutcome PointSearch::subdivide(const CellRange& sites, const SiteCell& cell, unsigned depth) {
-  const bool is_rejected = rejected_tied_ || rejected_overlapping_;
-  if (depth >= (is_rejected ? kSubdivisionsIfRejected : kSubdivisions) || cells_ >= kMostCells) {
+  // Where sites share a point, whole voxels are tied. Where a boundary is in the voxel, points outside of solids may be
+  // beside rejected ones.
+  const bool is_hopeless = rejected_tied_ && !has_boundary_;
+  if (depth >= (is_hopeless ? kSubdivisionsIfTied : kSubdivisions) || cells_ >= most_cells_) {
     return VoxelOutcome::kUndecided;
   }
   std::array<CellRange, 8> children;
@@ -172,6 +196,7 @@ VoxelOutcome PointSearch::subdivide(const CellRange& sites, const SiteCell& cell
     const SiteCell child = child_of(cell, i);
     children[i] = stack_.narrow(sites, child);
     if (!lowest) lowest = children[i];
+    if (is_inside_solid(children[i], child)) continue;
     const std::uint32_t label = stack_.nearest_site(children[i]);
     Found found = Found::kNo;
     if (children[i].count() > 1) {
@@ -180,6 +205,11 @@ VoxelOutcome PointSearch::subdivide(const CellRange& sites, const SiteCell& cell
     }
     if (found == Found::kNo && label != reference_label_)
       found = between(sites, reference_, reference_label_, child.middle);
+    // The way from the middle may cross the surface within a solid, where the cube has a part outside.
+    if (found == Found::kRejected && has_boundary_ && is_open[i] && label != reference_label_) {
+      stack_.recall(children[i], distances_);
+      found = from_measured(children[i], child.middle);
+    }
     if (found == Found::kYes) outcome = VoxelOutcome::kPoint;
   }
   for (unsigned i = 0; i < 8 && outcome != VoxelOutcome::kPoint; ++i) {
@@ -223,7 +253,8 @@ PointSearch::Found PointSearch::accept(const Point& p) {
     rejected_tied_ = true;
     return Found::kRejected;
   }
-  const std::uint32_t solid = forest_.solid_around(p);
+  // A voxel without a boundary is outside.
+  const std::uint32_t solid = has_boundary_ ? forest_.solid_around(p) : static_cast<std::uint32_t>(forest_.size());
   if (solid < forest_.size()) {
     rejected_overlapping_ = true;
     const std::uint32_t second = forest_.solid_around(p, solid + 1);

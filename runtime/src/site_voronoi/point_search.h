@@ -22,8 +22,11 @@ class PointSearch {
   PointSearch(const SiteForest& forest, CellStack& stack) : forest_(forest), stack_(stack) {}
 
   /// `sites` are those of the voxel, two or more; `labels` the nearest sites to its corners, corner i at the upper end
-  /// of axis k if bit k of i is set.
-  VoxelOutcome search(const CellRange& sites, const SiteCell& voxel, const std::array<std::uint32_t, 8>& labels);
+  /// of axis k if bit k of i is set. The voxel is divided no more once `most_cells` cells are examined.
+  VoxelOutcome search(const CellRange& sites, const SiteCell& voxel, const std::array<std::uint32_t, 8>& labels,
+                      std::uint32_t most_cells);
+  /// Of the last search, those of the voxel's divisions.
+  std::uint32_t cells() const { return cells_; }
   /// After kPoint.
   const SitePoint& point() const { return point_; }
   /// After kOverlapping, or beside any outcome: pairs of solids or of a solid and another site.
@@ -38,6 +41,9 @@ class PointSearch {
   Found between(const CellRange& sites, const Point& front, std::uint32_t label, const Point& behind);
   Found between_corners(const CellRange& sites, const std::array<std::uint32_t, 8>& labels);
   VoxelOutcome subdivide(const CellRange& sites, const SiteCell& cell, unsigned depth);
+  bool may_meet_boundary(const CellRange& sites, const SiteCell& cell) const;
+  bool is_inside_solid(const CellRange& sites, const SiteCell& cell) const;
+  VoxelOutcome inside_of(std::uint32_t solid);
   Found look_at(const CellRange& child, const SiteCell& cell);
   Found accept(const Point& p);
   void improve(const CellRange& sites);
@@ -56,8 +62,9 @@ class PointSearch {
   std::vector<std::array<std::uint32_t, 2>> overlaps_;
   Point reference_ = {0, 0, 0};  // the middle of the voxel, and the nearest site there
   std::uint32_t reference_label_ = 0;
+  bool has_boundary_ = false;  // perhaps, in the voxel
   bool rejected_tied_ = false, rejected_overlapping_ = false;
-  std::uint32_t cells_ = 0;
+  std::uint32_t cells_ = 0, most_cells_ = 0;
 };
 
 }  // namespace medial_vk

@@ -96,7 +96,7 @@ Result<SiteForest::Site> SiteForest::build_site(const VoronoiSite& site, std::si
   if (built.elements.empty()) return invalid_site(number, "has no element");
   for (const std::array<Point, 3>& element : built.elements) {
     if (!std::ranges::all_of(element, is_usable)) {
-      return invalid_site(number, "has a coordinate that is not finite, or beyond 1e150");
+      return invalid_site(number, "has a coordinate that is not finite, or beyond 1e75");
     }
   }
   Result<Bvh> tree = tree_of(built.elements, threads);

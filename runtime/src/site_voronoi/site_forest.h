@@ -18,8 +18,8 @@
 
 namespace medial_vk {
 
-/// Squares of distances stay finite.
-constexpr double kGreatestSiteCoordinate = 1e150;
+/// Fourth powers of distances stay finite, of which areas are roots.
+constexpr double kGreatestSiteCoordinate = 1e75;
 
 /// The nearest point of one site, and its element.
 struct SiteHit {

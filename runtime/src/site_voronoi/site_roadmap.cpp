@@ -31,7 +31,8 @@ namespace {
 using Voxel = std::array<std::uint32_t, 3>;
 
 constexpr std::size_t kPointsOfABlock = 256;
-constexpr std::size_t kJoinsOfAPlace = 128;  // that are tested
+constexpr std::size_t kJoinsOfAPlace = 128;                      // that are tested
+constexpr std::array<double, 4> kStepsFromAnEnd = {1, 2, 4, 8};  // of its clearance
 
 std::uint32_t point_in(const std::vector<SitePoint>& points, const Voxel& voxel) {
   const auto at = std::lower_bound(points.begin(), points.end(), voxel,
@@ -86,12 +87,60 @@ struct Join {
   double width = 0;
 };
 
+/// A place that is none of the graph, with the error of distances around it: beyond the grid they are larger, in
+/// proportion.
+struct OuterPlace {
+  ClearPlace place;
+  double rounding = 0;
+};
+
+/// With clearance 0 inside of a solid.
+OuterPlace outer_place(const SiteForest& forest, double rounding, const Point& at) {
+  OuterPlace outer = {{at, 0}, std::max(rounding, 0x1p-47 * greatest_coordinate({at, at}))};
+  if (forest.solid_around(at) == forest.size()) outer.place.clearance = forest.distance(at) - outer.rounding;
+  return outer;
+}
+
+/// Both ends of a path.
+Status take_ends(const SiteForest& forest, double rounding, const std::array<Point, 2>& ends,
+                 std::vector<OuterPlace>& outer) {
+  for (const Point& end : ends) {
+    const char* const name = &end == ends.data() ? "`from`" : "`to`";
+    if (!std::ranges::all_of(end, [](double x) { return std::fabs(x) <= kGreatestSiteCoordinate; })) {
+      return Error{ErrorCode::kUsage, std::string(name) + " must be a finite point, with no coordinate beyond 1e75"};
+    }
+    outer.push_back(outer_place(forest, rounding, end));
+    if (!(outer.back().place.clearance > 0)) {
+      return Error{ErrorCode::kUsage, std::string(name) + " must be outside of all sites"};
+    }
+  }
+  return {};
+}
+
+/// Places on the ray from the nearest contact through an end of a path, which lead away from the site that may hide
+/// the graph from it.
+void add_places_behind(const SiteForest& forest, double rounding, const ClearPlace& end,
+                       std::vector<OuterPlace>& outer) {
+  SiteHit best;
+  for (std::uint32_t s = 0; s < forest.size(); ++s) {
+    SiteHit limit;
+    limit.squared_distance = best.squared_distance;
+    const SiteHit hit = forest.nearest(s, end.at, limit);
+    if (hit.squared_distance < best.squared_distance) best = hit;
+  }
+  for (const double steps : kStepsFromAnEnd) {
+    const OuterPlace place = outer_place(forest, rounding, end.at + steps * (end.at - best.contact));
+    if (place.place.clearance > 0) outer.push_back(place);
+  }
+}
+
 /// Of a place to the graph: to points that are near, or likely to be seen from it through wide gaps.
-void join_place(const SiteForest& forest, double rounding, const std::vector<ClearPlace>& places,
-                const ClearPlace& place, std::uint32_t number, std::vector<Join>& joins) {
+void join_place(const SiteForest& forest, const std::vector<ClearPlace>& places, const OuterPlace& outer,
+                std::size_t most, std::uint32_t number, std::vector<Join>& joins) {
+  const ClearPlace& place = outer.place;
   std::vector<std::uint32_t> order(places.size());
   std::iota(order.begin(), order.end(), 0u);
-  const std::size_t tested = std::min(places.size(), kJoinsOfAPlace);
+  const std::size_t tested = std::min(places.size(), most);
   const auto way = [&](std::uint32_t i) { return length(places[i].at - place.at); };
   std::vector<std::uint32_t> chosen;
   const auto choose = [&](const auto& before) {
@@ -106,8 +155,22 @@ void join_place(const SiteForest& forest, double rounding, const std::vector<Cle
   std::ranges::sort(chosen);
   chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
   for (const std::uint32_t i : chosen) {
-    const double width = clearance_of_line(forest, rounding, place, places[i]);
+    const double width = clearance_of_line(forest, outer.rounding, place, places[i]);
     if (width > 0) joins.push_back({number, i, width});
+  }
+}
+
+/// Of places that are none of the graph, to it and to each other.
+void join_outer_places(const SiteForest& forest, const std::vector<ClearPlace>& places,
+                       const std::vector<OuterPlace>& outer, std::vector<Join>& joins) {
+  const auto count = static_cast<std::uint32_t>(places.size());
+  for (std::uint32_t i = 0; i < outer.size(); ++i) {
+    join_place(forest, places, outer[i], kJoinsOfAPlace, count + i, joins);
+    for (std::uint32_t k = 0; k < i; ++k) {
+      const double rounding = std::max(outer[i].rounding, outer[k].rounding);
+      const double width = clearance_of_line(forest, rounding, outer[k].place, outer[i].place);
+      if (width > 0) joins.push_back({count + k, count + i, width});
+    }
   }
 }
 
@@ -197,30 +260,23 @@ Result<std::optional<SitePath>> SiteRoadmap::widest_path(const Point& from, cons
     std::vector<Join> joins;
     joins.reserve(impl_->links.size());
     for (const RoadmapLink& link : impl_->links) joins.push_back({link.points[0], link.points[1], link.width});
-    std::array<ClearPlace, 2> ends = {ClearPlace{from, 0}, ClearPlace{to, 0}};
-    double rounding = impl_->rounding;
-    for (ClearPlace& end : ends) {
-      const char* const name = &end == ends.data() ? "`from`" : "`to`";
-      if (!std::ranges::all_of(end.at, [](double x) { return std::fabs(x) <= kGreatestSiteCoordinate; })) {
-        return Error{ErrorCode::kUsage, std::string(name) + " must be a finite point"};
+    std::vector<OuterPlace> outer;
+    if (Status status = take_ends(impl_->forest, impl_->rounding, {from, to}, outer); !status) return status.error();
+    const std::array<ClearPlace, 2> ends = {outer[0].place, outer[1].place};
+    for (const ClearPlace& end : ends) add_places_behind(impl_->forest, impl_->rounding, end, outer);
+    join_outer_places(impl_->forest, impl_->places, outer, joins);
+    const auto all = static_cast<std::uint32_t>(count + outer.size());
+    double widest = greatest_width(joins, all, count, count + 1);
+    if (!(widest > 0)) {
+      for (std::uint32_t e = 0; e < 2; ++e) {
+        join_place(impl_->forest, impl_->places, outer[e], impl_->places.size(), count + e, joins);
       }
-      // A place beyond the grid has larger roundings than those of the grid, in proportion.
-      rounding = std::max(rounding, 0x1p-47 * greatest_coordinate({end.at, end.at}));
-      end.clearance = impl_->forest.distance(end.at) - rounding;
-      if (!(end.clearance > 0) || impl_->forest.solid_around(end.at) < impl_->forest.size()) {
-        return Error{ErrorCode::kUsage, std::string(name) + " must be outside of all sites"};
-      }
+      widest = greatest_width(joins, all, count, count + 1);
     }
-    for (std::uint32_t e = 0; e < 2; ++e) {
-      join_place(impl_->forest, rounding, impl_->places, ends[e], count + e, joins);
-    }
-    const double direct = clearance_of_line(impl_->forest, rounding, ends[0], ends[1]);
-    if (direct > 0) joins.push_back({count, count + 1, direct});
-    SitePath path;
-    const double widest = greatest_width(joins, count + 2, count, count + 1);
     if (!(widest > 0)) return std::optional<SitePath>();
-    const auto place = [&](std::uint32_t i) { return i < count ? impl_->places[i].at : ends[i - count].at; };
-    std::vector<std::uint32_t> way = shortest_way(joins, count + 2, count, count + 1, widest, [&](const Join& join) {
+    SitePath path;
+    const auto place = [&](std::uint32_t i) { return i < count ? impl_->places[i].at : outer[i - count].place.at; };
+    std::vector<std::uint32_t> way = shortest_way(joins, all, count, count + 1, widest, [&](const Join& join) {
       return length(place(join.from) - place(join.to));
     });
     std::ranges::reverse(way);
@@ -232,6 +288,19 @@ Result<std::optional<SitePath>> SiteRoadmap::widest_path(const Point& from, cons
     }
     return std::optional<SitePath>(std::move(path));
   });
+}
+
+Status check_path_ends(std::span<const VoronoiSite> sites, const Point& from, const Point& to, unsigned threads) {
+  const auto tested = catch_out_of_memory("testing the ends of a path", [&]() -> Result<bool> {
+    const Result<SiteForest> forest = SiteForest::build(sites, threads);
+    if (!forest) return forest.error();
+    std::vector<OuterPlace> outer;
+    const double rounding = 0x1p-47 * greatest_coordinate(forest.value().box());
+    if (Status status = take_ends(forest.value(), rounding, {from, to}, outer); !status) return status.error();
+    return true;
+  });
+  if (!tested) return tested.error();
+  return {};
 }
 
 }  // namespace medial_vk

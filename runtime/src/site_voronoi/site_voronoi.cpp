@@ -18,6 +18,7 @@ namespace medial_vk {
 namespace {
 
 constexpr std::uint32_t kMostVoxels = 2048;  // along a side
+constexpr double kLeastSide = 1e-70;         // of the sites: fourth powers of voxels are no denormal numbers
 // Voxels between the lower end of the box and that of the grid, without a simple ratio.
 constexpr Point kShift = {0.3719, 0.4127, 0.2953};
 
@@ -25,8 +26,8 @@ Status check_options(const SiteVoronoiOptions& options) {
   if (options.resolution < 1 || options.resolution > kMostVoxels) {
     return Error{ErrorCode::kUsage, "`resolution` must be from 1 to 2048"};
   }
-  if (!(std::isfinite(options.margin) && options.margin >= 0)) {
-    return Error{ErrorCode::kUsage, "`margin` must be a length, or 0"};
+  if (!(options.margin >= 0 && options.margin <= kGreatestSiteCoordinate)) {
+    return Error{ErrorCode::kUsage, "`margin` must be a length up to 1e75, or 0"};
   }
   return {};
 }
@@ -35,6 +36,10 @@ Status check_options(const SiteVoronoiOptions& options) {
 Result<SiteGrid> grid_around(const BvhBox& box, const SiteVoronoiOptions& options) {
   const Point across = box.upper - box.lower;
   const double longest = std::max({across[0], across[1], across[2]});
+  if (!(longest >= kLeastSide)) {
+    return Error{ErrorCode::kInvalidMesh,
+                 "the sites are too small: the longest side of the box around them is below 1e-70"};
+  }
   const double margin = options.margin > 0 ? options.margin : 0.25 * longest;
   SiteGrid grid;
   grid.side = (longest + 2 * margin) / options.resolution;
@@ -66,12 +71,14 @@ class Collector {
     voronoi_.cells += tile.cells;
   }
 
-  SiteVoronoi finish(const SiteGrid& grid) {
+  /// Throws LoopStopped.
+  SiteVoronoi finish(const SiteGrid& grid, const LoopWatch& watch) {
     voronoi_.grid = grid;
     for (auto* const voxels : {&voronoi_.undecided, &voronoi_.tied, &voronoi_.overlapping}) {
+      watch.check();
       std::ranges::sort(*voxels, is_earlier_voxel);
     }
-    make_surface(std::move(points_), std::move(edges_), voronoi_);
+    make_surface(std::move(points_), std::move(edges_), watch, voronoi_);
     return std::move(voronoi_);
   }
 
@@ -91,14 +98,14 @@ SiteVoronoi search(const SiteForest& forest, const SiteGrid& grid, const SiteVor
   const double rounding = rounding_in(grid);
   parallel_for(count, 1, options.threads, [&](std::size_t i) {
     watch.check();
-    TileSearch tile(forest, grid, rounding);
+    TileSearch tile(forest, grid, rounding, watch);
     const std::size_t layer = std::size_t{tiles[0]} * tiles[1];
     collector.add(
         tile.search({static_cast<std::uint32_t>(i % tiles[0]), static_cast<std::uint32_t>(i % layer / tiles[0]),
                      static_cast<std::uint32_t>(i / layer)}));
     watch.finish(1, count);
   });
-  return collector.finish(grid);
+  return collector.finish(grid, watch);
 }
 
 }  // namespace

@@ -1,11 +1,21 @@
 #include "site_voronoi/tile_search.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace medial_vk {
+namespace {
+
+// Near-coincident sites leave most voxels to be divided as far as allowed. So a tile has so many cells for divisions,
+// and voxels that are searched after these are used up have few. Tiles are searched in one order by one thread each.
+constexpr std::uint64_t kCellsOfATile = 4000, kMoreForEachVoxel = 8;
+constexpr std::uint64_t kMostCellsOfAVoxel = 4000, kFewCellsOfAVoxel = 64;
+
+}  // namespace
 
 TileFindings TileSearch::search(const std::array<std::uint32_t, 3>& tile) {
   for (std::size_t k = 0; k < 3; ++k) first_[k] = kVoxels * tile[k];
+  searched_ = divisions_ = 0;
   labels_.assign(std::size_t{kCorners} * kCorners * kCorners, kUnknown);
   const std::uint64_t before = stack_.narrowed();
   const CellRange all = stack_.whole();
@@ -47,7 +57,15 @@ std::uint32_t TileSearch::label_of(const CellRange& sites, const std::array<std:
   return label;
 }
 
+std::uint32_t TileSearch::most_cells() const {
+  const std::uint64_t allowed = kCellsOfATile + kMoreForEachVoxel * searched_;
+  const std::uint64_t left = allowed - std::min(allowed, divisions_);
+  return static_cast<std::uint32_t>(std::clamp(left, kFewCellsOfAVoxel, kMostCellsOfAVoxel));
+}
+
 void TileSearch::search_voxel(const CellRange& sites, const SiteCell& cell, const std::array<std::uint32_t, 3>& voxel) {
+  watch_.check();
+  ++searched_;
   std::array<std::uint32_t, 8> labels = {};
   for (unsigned i = 0; i < 8; ++i) {
     std::array<std::uint32_t, 3> corner = voxel;
@@ -58,7 +76,8 @@ void TileSearch::search_voxel(const CellRange& sites, const SiteCell& cell, cons
     const std::uint32_t upper = labels[std::size_t{1} << axis];
     if (upper != labels[0]) found_.edges.push_back({voxel, axis, {labels[0], upper}});
   }
-  const VoxelOutcome outcome = points_.search(sites, cell, labels);
+  const VoxelOutcome outcome = points_.search(sites, cell, labels, most_cells());
+  divisions_ += points_.cells();
   const auto& overlaps = points_.overlaps();
   found_.overlaps.insert(found_.overlaps.end(), overlaps.begin(), overlaps.end());
   switch (outcome) {

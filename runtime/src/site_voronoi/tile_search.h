@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/loop_watch.h"
+#include "site_voronoi/grid_rounding.h"
 #include "site_voronoi/point_search.h"
 
 namespace medial_vk {
@@ -26,12 +28,12 @@ struct TileFindings {
 
 class TileSearch {
  public:
-  static constexpr std::uint32_t kVoxels = 16;  ///< Along a side of a tile.
+  static constexpr std::uint32_t kVoxels = kVoxelsOfATile;  ///< Along a side of a tile.
 
-  TileSearch(const SiteForest& forest, const SiteGrid& grid, double rounding)
-      : grid_(grid), stack_(forest, rounding), points_(forest, stack_) {}
+  TileSearch(const SiteForest& forest, const SiteGrid& grid, double rounding, const LoopWatch& watch)
+      : grid_(grid), watch_(watch), stack_(forest, rounding), points_(forest, stack_) {}
 
-  /// The tile whose lowest voxel is kVoxels times `tile`.
+  /// The tile whose lowest voxel is kVoxels times `tile`. Throws LoopStopped.
   TileFindings search(const std::array<std::uint32_t, 3>& tile);
 
  private:
@@ -42,12 +44,16 @@ class TileSearch {
   void search_voxel(const CellRange& sites, const SiteCell& cell, const std::array<std::uint32_t, 3>& voxel);
   std::uint32_t label_of(const CellRange& sites, const std::array<std::uint32_t, 3>& corner);
 
+  std::uint32_t most_cells() const;
+
   const SiteGrid& grid_;
+  const LoopWatch& watch_;
   CellStack stack_;
   PointSearch points_;
   std::array<std::uint32_t, 3> first_ = {};
   std::vector<std::uint32_t> labels_;  // of the corners of the tile's voxels, once they are known
   std::vector<SiteDistance> distances_;
+  std::uint64_t searched_ = 0, divisions_ = 0;  // voxels of the tile, and cells that they were divided into
   TileFindings found_;
 };
 

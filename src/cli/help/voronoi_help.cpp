@@ -34,8 +34,8 @@ What is searched:
       --resolution N    voxels along the longest side of the box, 1 to 2048; at
                         most one point a voxel (default 160)
       --margin M        the box reaches this far beyond the sites, in their
-                        units (default: a quarter of the longest side; in the
-                        plane a half)
+                        units (default, also as 0: a quarter of the longest
+                        side; in the plane a half)
 
 Output:
   -o, --output FILE     .ply: points and faces; .obj, .glb: faces by pair; .csv:
@@ -52,8 +52,8 @@ Output:
       --roadmap FILE    the points as a graph for motion planning, .json: each
                         link with the radius of a ball that passes, proved
       --from X,Y,Z, --to X,Y,Z
-                        in the roadmap: the path between two places that the
-                        largest ball can take
+                        in the roadmap: the path between two places with the
+                        greatest width on this graph
       --report FILE     numbers of sites, surface and run as JSON; "-": standard
                         output
       --check           test every point, and samples of the surface, with the

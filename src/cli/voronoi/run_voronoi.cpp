@@ -51,6 +51,7 @@ class VoronoiRun {
  private:
   Status run_in_space() {
     if (Status status = load(); !status) return status;
+    if (Status status = check_ends(); !status) return status;
     if (Status status = find(); !status) return status;
     if (Status status = make_roadmap(); !status) return status;
     if (Status status = check(); !status) return status;
@@ -95,6 +96,16 @@ class VoronoiRun {
     return error;
   }
 
+  /// Before the search, which may take long.
+  Status check_ends() {
+    if (!options_.from) return {};
+    const EndAtOnce guard;
+    if (interrupted()) return stopped();
+    const Status status = check_path_ends(sites_, *options_.from, *options_.to, options_.threads);
+    if (!status) return in_words(status.error());
+    return {};
+  }
+
   Status find() {
     record_.options.resolution = options_.resolution;
     record_.options.margin = options_.margin;
@@ -107,8 +118,11 @@ class VoronoiRun {
     return {};
   }
 
+  /// Nothing is lost if the process ends: trees and paths do not ask for a stop.
   Status make_roadmap() {
     if (options_.roadmap.empty()) return {};
+    const EndAtOnce guard;
+    if (interrupted()) return stopped();
     SiteRoadmapOptions how;
     how.threads = options_.threads;
     Result<SiteRoadmap> roadmap =

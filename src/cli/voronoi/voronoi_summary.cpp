@@ -52,7 +52,10 @@ std::string overlap_text(const SiteRecord& record) {
 }
 
 std::string path_text(const SiteRecord& record) {
-  if (!record.path) return "none: no way with a proved width leads from one place to the other";
+  if (!record.path) {
+    return fmt::format("none found from {:.6g} to {:.6g} by the links of the roadmap",
+                       fmt::join(record.path_ends[0], ","), fmt::join(record.path_ends[1], ","));
+  }
   return fmt::format("width {:.6g}, length {:.6g}, {}", record.path->width, record.path->length,
                      counted(record.path->line.size(), "point", "points"));
 }
@@ -67,8 +70,9 @@ std::string voronoi_summary(const SiteRecord& record, const std::vector<StageTim
   for (const std::string& assumption : record.assumptions) text += labelled("note", assumption);
   if (!voronoi.overlaps.empty()) text += labelled("note", overlap_text(record));
   if (!voronoi.tied.empty()) {
-    text += labelled("note", fmt::format("{} left out, where the nearest points of two sites are the same",
-                                         counted(voronoi.tied.size(), "voxel", "voxels")));
+    text += labelled("note",
+                     fmt::format("{} left out, where the nearest points of two sites are the same, or too near to tell",
+                                 counted(voronoi.tied.size(), "voxel", "voxels")));
   }
   text += labelled("grid", fmt::format("{} x {} x {} voxels of {:.6g}", voronoi.grid.size[0], voronoi.grid.size[1],
                                        voronoi.grid.size[2], voronoi.grid.side));

@@ -5,7 +5,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numeric>
+#include <string>
 
 #include "medial_vk/medial_spheres.h"
 #include "output/colours/colour_map.h"
@@ -21,6 +24,8 @@ constexpr double kThickness = 0.006;  // of segments and points, as a share of t
 constexpr double kSpeck = 0.02;       // of that
 constexpr double kPathShare = 0.004;  // likewise, the radius of the path
 constexpr std::size_t kMostPairsNamed = 6;
+constexpr std::size_t kMostLetters = 64;  // of their names, which are in one row
+constexpr std::size_t kMostLettersOfAName = 16;
 
 Vector3d vector_of(const Point& p) { return Vector3d(p.data()); }
 Point point_of(const Vector3d& v) { return {v[0], v[1], v[2]}; }
@@ -115,13 +120,31 @@ std::vector<MedialSphere> discs_of(const SiteRecord& record) {
   return discs;
 }
 
+std::string short_name(const std::string& name) {
+  return name.size() <= kMostLettersOfAName ? name : name.substr(0, kMostLettersOfAName - 2) + "..";
+}
+
+/// The pairs with the largest areas, in one row.
 void name_pairs(const SiteRecord& record, picture::Legend& legend) {
   legend = {};
   legend.title = fmt::format("{} points between {} sites", record.voronoi.points.size(), record.sites.size());
   const std::vector<SitePair> pairs = pairs_of(record.voronoi);
-  for (std::size_t i = 0; i < std::min(pairs.size(), kMostPairsNamed); ++i) {
-    legend.swatches.emplace_back(picture::sheet_colour_index(static_cast<std::int32_t>(i)),
-                                 fmt::format("{} and {}", pairs[i].sites[0], pairs[i].sites[1]));
+  std::vector<std::size_t> order(pairs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return pairs[a].area > pairs[b].area; });
+  std::size_t letters = 0;
+  for (const std::size_t i : order) {
+    const std::string text = fmt::format("{} and {}", short_name(record.sites[pairs[i].sites[0]].name),
+                                         short_name(record.sites[pairs[i].sites[1]].name));
+    letters += text.size();
+    const std::size_t named = legend.swatches.size();
+    if (named == kMostPairsNamed || (named > 0 && letters > kMostLetters)) {
+      // Without a colour.
+      legend.swatches.emplace_back(std::numeric_limits<std::size_t>::max(),
+                                   fmt::format("and {} more", pairs.size() - named));
+      break;
+    }
+    legend.swatches.emplace_back(picture::sheet_colour_index(static_cast<std::int32_t>(i)), text);
   }
   if (record.path) legend.note = fmt::format("path: a ball of radius {:.4g} passes", record.path->width);
 }

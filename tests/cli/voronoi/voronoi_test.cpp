@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -136,6 +137,60 @@ TEST_F(VoronoiCommand, ShapesOfThePlaneHaveCurvesBetweenThem) {
   EXPECT_THAT(crossing.err, HasSubstr("must be apart"));
 }
 
+TEST_F(VoronoiCommand, ShapesOfThePlaneThatTouchAreRefused) {
+  const std::string square = "x,y\n0,0\n1,0\n1,1\n0,1\n";
+  const std::string triangle = "x,y\n0,0\n1,0\n0.5,1\n";
+  const std::vector<std::array<std::string, 3>> cases = {
+      {"the same shape", square, square},
+      {"a common corner", square, "x,y\n1,1\n2,1\n2,2\n1,2\n"},
+      {"a common corner within the tolerance", square, "x,y\n1.00000000000001,1\n2,1\n2,2\n1,2\n"},
+      {"a common vertex of triangles", triangle, "x,y\n0.5,1\n1,2\n0,2\n"},
+      {"a vertex on an edge", square, "x,y\n1,0.5\n2,0\n2,1\n"},
+      {"a common edge", square, "x,y\n1,0\n2,0\n2,1\n1,1\n"},
+      {"one in the other", square, "x,y\n0.2,0.2\n0.8,0.2\n0.8,0.8\n"}};
+  for (const auto& [name, first, second] : cases) {
+    write_file(scratch_.path("first.csv"), first);
+    write_file(scratch_.path("second.csv"), second);
+    const ToolResult result = run({"first.csv", "second.csv"});
+    EXPECT_EQ(result.exit_code, 3) << name;
+    EXPECT_THAT(result.err, HasSubstr("must be apart")) << name;
+  }
+  // Shapes in a hole, and shapes whose rings touch themselves, are apart from others.
+  write_file(scratch_.path("first.wkt"), "POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0), (3 3, 3 6, 6 6, 6 3, 3 3))");
+  write_file(scratch_.path("second.wkt"), "MULTIPOLYGON (((4 4, 5 4, 4.5 4.5, 4 4)), ((4.5 4.5, 5 5, 4 5, 4.5 4.5)))");
+  const ToolResult apart = run({"first.wkt", "second.wkt"});
+  EXPECT_EQ(apart.exit_code, 0) << apart.err;
+}
+
+TEST_F(VoronoiCommand, OptionsOfSpaceAreRefusedInThePlane) {
+  write_file(scratch_.path("one.csv"), "x,y\n0,0\n1,0\n1,1\n0,1\n");
+  write_file(scratch_.path("two.csv"), "x,y\n3,0\n4,0\n4,1\n3,1\n");
+  for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
+           {"--check"}, {"--resolution", "160"}, {"--from", ""}, {"--to", ""}, {"--from", "0,0,0", "--to", "1,1,1"}}) {
+    std::vector<std::string> arguments = {"one.csv", "two.csv"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ToolResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 2) << options[0];
+    const bool is_empty = options.back().empty();  // no number, in space neither
+    EXPECT_THAT(result.err, HasSubstr(is_empty ? "'' is not" : "about sites in space"));
+  }
+}
+
+TEST_F(VoronoiCommand, APathThatIsNotFoundIsNamed) {
+  // The triangles of a box, each one a site: no way leads out of it.
+  const Mesh box = test::make_box({1, 1, 1});
+  std::vector<std::string> arguments = {"--resolution", "12",     "--roadmap",   "m.json", "-o",
+                                        "v.ply",        "--from", "0.5,0.6,0.4", "--to",   "1.8,0.5,0.5"};
+  for (const Triangle& t : box.triangles) {
+    std::ostringstream numbers;
+    for (std::size_t i = 0; i < 9; ++i) numbers << (i > 0 ? "," : "") << box.vertices[t[i / 3]][i % 3];
+    arguments.insert(arguments.end(), {"--triangle", numbers.str()});
+  }
+  const ToolResult result = run(arguments);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("none found from 0.5,0.6,0.4 to 1.8,0.5,0.5"));
+}
+
 TEST_F(VoronoiCommand, WrongUseAndInvalidSitesHaveTheirExitCodes) {
   EXPECT_EQ(run({"a.obj"}).exit_code, 2);
   EXPECT_EQ(run({"a.obj", "--point", "1,2"}).exit_code, 2);
@@ -145,6 +200,12 @@ TEST_F(VoronoiCommand, WrongUseAndInvalidSitesHaveTheirExitCodes) {
   const ToolResult inside = run({"a.obj", "b.obj", "--roadmap", "m.json", "--from", "0.5,0.5,0.5", "--to", "2,0,0"});
   EXPECT_EQ(inside.exit_code, 2);
   EXPECT_THAT(inside.err, HasSubstr("--from must be outside of all sites"));
+  // Before the search, which takes minutes at this resolution.
+  const ToolResult at_once = run({"a.obj", "b.obj", "--resolution", "2048", "--roadmap", "m.json", "--from", "2,0,0",
+                                  "--to", "3.5,0.5,0.5", "-v"});
+  EXPECT_EQ(at_once.exit_code, 2);
+  EXPECT_THAT(at_once.err, HasSubstr("--to must be outside of all sites"));
+  EXPECT_EQ(run({"a.obj", "b.obj", "--roadmap", "m.json", "--from", "", "--to", ""}).exit_code, 2);
   const ToolResult twice = run({"a.obj", "a.obj"});
   EXPECT_EQ(twice.exit_code, 3);
   EXPECT_THAT(twice.err, HasSubstr("sites 0 and 1 have the same elements"));

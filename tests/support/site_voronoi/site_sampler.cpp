@@ -31,7 +31,14 @@ std::size_t index_of(const SiteGrid& grid, const std::array<std::uint32_t, 3>& v
 
 SiteSampler::SiteSampler(std::span<const VoronoiSite> sites, const SiteGrid& grid, std::uint32_t seed)
     : grid_(grid), random_(seed) {
-  for (const VoronoiSite& site : sites) trees_.push_back(tree_of_site(site));
+  trees_.reserve(sites.size());
+  for (const VoronoiSite& site : sites) {
+    trees_.push_back(tree_of_site(site));
+    if (!site.mesh || !site.mesh->view().closed) continue;
+    Result<Solid> solid = Solid::build(*site.mesh);
+    if (!solid) throw std::runtime_error(solid.error().message);
+    solids_.push_back(std::move(solid).value());
+  }
 }
 
 SiteSampler::Nearest SiteSampler::nearest(const Point& p) const {
@@ -67,19 +74,18 @@ std::optional<SiteSample> SiteSampler::next() {
   }
   const Nearest at = nearest(low);
   const Point a = at.contact - low, b = at.second_contact - low;
-  return SiteSample{low, at.distance, 0.5 * std::atan2(length(cross(a, b)), dot(a, b))};
+  const bool is_inside = std::ranges::any_of(solids_, [&](const Solid& solid) { return solid.contains(low); });
+  return SiteSample{low, at.distance, 0.5 * std::atan2(length(cross(a, b)), dot(a, b)), is_inside};
 }
 
 SampledVoxels::SampledVoxels(const SiteVoronoi& voronoi)
     : grid_(voronoi.grid), states_(std::size_t{grid_.size[0]} * grid_.size[1] * grid_.size[2]) {
   for (const SitePoint& point : voronoi.points) states_[index_of(grid_, point.voxel)] = SampleState::kFound;
   for (const auto& voxel : voronoi.undecided) states_[index_of(grid_, voxel)] = SampleState::kUndecided;
-  for (const auto* const voxels : {&voronoi.tied, &voronoi.overlapping}) {
-    for (const auto& voxel : *voxels) states_[index_of(grid_, voxel)] = SampleState::kLeftOut;
-  }
 }
 
 SampleState SampledVoxels::state_of(const SiteSample& sample) const {
+  if (sample.is_inside) return SampleState::kLeftOut;
   std::array<std::uint32_t, 3> voxel;
   for (std::size_t k = 0; k < 3; ++k) {
     const double at = std::floor((sample.point[k] - grid_.origin[k]) / grid_.side);

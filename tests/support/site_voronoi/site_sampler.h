@@ -10,6 +10,7 @@
 
 #include "medial_vk/bvh.h"
 #include "medial_vk/site_voronoi.h"
+#include "solid/solid.h"
 
 namespace medial_vk::test {
 
@@ -17,6 +18,7 @@ struct SiteSample {
   Point point = {0, 0, 0};
   double distance = 0;      ///< To the nearest site.
   double object_angle = 0;  ///< Between the contacts on the two nearest sites.
+  bool is_inside = false;   ///< Of a solid.
 };
 
 /// Bisects chords of the box of the grid whose ends have different nearest sites, with closest-point queries to a tree
@@ -37,11 +39,13 @@ class SiteSampler {
   Nearest nearest(const Point& p) const;
 
   std::vector<Bvh> trees_;
+  std::vector<Solid> solids_;
   SiteGrid grid_;
   std::mt19937_64 random_;
 };
 
-/// Left out: only points were found that are none of the surface.
+/// Left out: the sample is inside of a solid, and none of the surface. Lost: its voxel has no point and is not
+/// undecided.
 enum class SampleState : std::uint8_t { kLost, kFound, kUndecided, kLeftOut };
 
 /// By the voxel that holds the sample.

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -94,6 +95,15 @@ TEST(SiteRoadmaps, TheWidestPathTakesTheWideGap) {
 }
 
 /// Kruskal's tree against a search that widens step by step, on the graph alone.
+/// The rounding of distances around a place far away is of that end only: the other one may be near a site.
+TEST(SiteRoadmaps, AnEndFarAwayLeavesTheOtherItsRounding) {
+  const Mapped map = map_of({site_of_point({0, 0, 0}), site_of_point({1, 0, 0})}, 12);
+  const Point near_site = {1e-4, 0, 0}, far_away = {0.5, 1e12, 0};
+  const auto there = map.roadmap.widest_path(near_site, far_away), back = map.roadmap.widest_path(far_away, near_site);
+  ASSERT_TRUE(there.ok()) << there.error().message;
+  ASSERT_TRUE(back.ok()) << back.error().message;
+}
+
 TEST(SiteRoadmaps, NoPathOnTheGraphIsWider) {
   const Mapped map = map_of(site_arrangements(12)[2].sites, 16);
   const auto count = static_cast<std::uint32_t>(map.voronoi.points.size());
@@ -137,6 +147,29 @@ TEST(SiteRoadmaps, ASiteThatClosesTheWayLeavesNone) {
   EXPECT_FALSE(path.value().has_value());
 }
 
+TEST(SiteRoadmaps, PlacesThatSitesHideAreJoinedByWaysAround) {
+  // In open space, straight behind two boxes, which hide all points of the surface between them.
+  const Mapped map =
+      map_of({site_of_mesh(make_box({1, 1, 1})), site_of_mesh(moved(make_box({1, 1, 1}), {3, 0, 0}))}, 24);
+  const std::array<std::array<Point, 2>, 3> ends = {{{Point{-2, 0.5, 0.5}, Point{6, 0.5, 0.5}},
+                                                     {Point{-2, 0, 0}, Point{5, 0, 0}},
+                                                     {Point{-0.3, 0.5, 0.5}, Point{2, 1, 1}}}};
+  for (const auto& [from, to] : ends) {
+    const auto path = map.roadmap.widest_path(from, to);
+    ASSERT_TRUE(path.ok()) << path.error().message;
+    ASSERT_TRUE(path.value().has_value()) << "from " << from[0];
+    EXPECT_EQ(path.value()->line.front(), from);
+    EXPECT_EQ(path.value()->line.back(), to);
+    EXPECT_GT(path.value()->width, 0);
+    for (std::size_t i = 1; i < path.value()->line.size(); ++i) {
+      const Point a = path.value()->line[i - 1], b = path.value()->line[i];
+      for (int k = 0; k <= 16; ++k) {
+        EXPECT_GE(least_distance(a + (k / 16.0) * (b - a), map.sites), path.value()->width - 1e-13);
+      }
+    }
+  }
+}
+
 TEST(SiteRoadmaps, PlacesOnSitesAndInSolidsAreRefused) {
   const Mapped map = map_of({site_of_mesh(make_box({1, 1, 1})), site_of_point({2, 0.5, 0.5})}, 12);
   const Point outside = {1.5, 0.5, 0.5};
@@ -144,8 +177,11 @@ TEST(SiteRoadmaps, PlacesOnSitesAndInSolidsAreRefused) {
   for (const Point& bad : {Point{0.5, 0.5, 0.5}, Point{1, 0.5, 0.5}, Point{2, 0.5, 0.5}, Point{nan, 0, 0}}) {
     EXPECT_FALSE(map.roadmap.widest_path(bad, outside).ok());
     EXPECT_FALSE(map.roadmap.widest_path(outside, bad).ok());
+    EXPECT_FALSE(check_path_ends(map.sites, bad, outside).ok());
+    EXPECT_FALSE(check_path_ends(map.sites, outside, bad).ok());
   }
   EXPECT_TRUE(map.roadmap.widest_path(outside, {1.2, 0.1, 0.1}).ok());
+  EXPECT_TRUE(check_path_ends(map.sites, outside, {1.2, 0.1, 0.1}).ok());
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "base/point_ops.h"
 #include "medial_vk/site_voronoi.h"
 #include "support/site_voronoi/arrangements.h"
+#include "support/site_voronoi/site_sampler.h"
 #include "support/solids/solids.h"
 
 namespace medial_vk::test {
@@ -30,15 +31,30 @@ TEST(SiteInputs, EmptyInfiniteAndEqualSitesAreRefused) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(message_of(find_at({site_of_point({0, 0, 0}), VoronoiSite()}, 10)), "site 1 has no element");
   EXPECT_EQ(message_of(find_at({site_of_point({0, nan, 0}), site_of_point({0, 0, 0})}, 10)),
-            "site 0 has a coordinate that is not finite, or beyond 1e150");
-  EXPECT_EQ(message_of(find_at({site_of_segment({0, 0, 0}, {1e151, 0, 0}), site_of_point({0, 0, 0})}, 10)),
-            "site 0 has a coordinate that is not finite, or beyond 1e150");
+            "site 0 has a coordinate that is not finite, or beyond 1e75");
+  EXPECT_EQ(message_of(find_at({site_of_segment({0, 0, 0}, {1e76, 0, 0}), site_of_point({0, 0, 0})}, 10)),
+            "site 0 has a coordinate that is not finite, or beyond 1e75");
   EXPECT_EQ(message_of(find_at({site_of_point({0, 0, 0}), site_of_segment({1, 0, 0}, {0, 1, 0}),
                                 site_of_segment({0, 1, 0}, {1, 0, 0})},
                                10)),
             "sites 1 and 2 have the same elements");
   EXPECT_EQ(message_of(find_at({site_of_point({1e9, 0, 0}), site_of_point({1e9 + 1e-6, 0, 0})}, 1000)),
             "the sites are too small for the size of their coordinates");
+  EXPECT_EQ(message_of(find_at({site_of_point({0, 0, 0}), site_of_point({1e-170, 0, 0})}, 10)),
+            "the sites are too small: the longest side of the box around them is below 1e-70");
+}
+
+TEST(SiteInputs, TheSmallestAndTheLargestScalesHaveASurface) {
+  for (const double scale : {2e-70, 1.0, 9e74}) {
+    const Result<SiteVoronoi> found = find_at({site_of_point({0, 0, 0}), site_of_point({scale, 0, 0})}, 10);
+    ASSERT_TRUE(found.ok()) << found.error().message;
+    ASSERT_EQ(found.value().pieces.size(), 1u);
+    // The plane between both points, without half a voxel to a whole one at each end of the grid.
+    const SiteGrid& grid = found.value().grid;
+    EXPECT_GT(found.value().pieces[0].area / grid.side / grid.side, (grid.size[1] - 2.0) * (grid.size[2] - 2.0));
+    EXPECT_LT(found.value().pieces[0].area / grid.side / grid.side, 1.0 * grid.size[1] * grid.size[2]);
+    EXPECT_TRUE(found.value().tied.empty());
+  }
 }
 
 TEST(SiteInputs, OptionsOutOfRangeAreRefused) {
@@ -49,7 +65,7 @@ TEST(SiteInputs, OptionsOutOfRangeAreRefused) {
     EXPECT_EQ(found.error().code, ErrorCode::kUsage);
   }
   SiteVoronoiOptions options;
-  for (const double margin : {-1.0, std::numeric_limits<double>::infinity()}) {
+  for (const double margin : {-1.0, 1e76, std::numeric_limits<double>::infinity()}) {
     options.margin = margin;
     EXPECT_FALSE(find_site_voronoi(sites, options).ok());
   }
@@ -62,6 +78,36 @@ TEST(SiteInputs, AStopEndsTheSearch) {
       std::vector<VoronoiSite>{site_of_point({0, 0, 0}), site_of_point({1, 0, 0})}, {}, {}, stop.get_token());
   ASSERT_FALSE(found.ok());
   EXPECT_EQ(found.error().code, ErrorCode::kInterrupted);
+}
+
+/// One tile, so that only voxels and the steps after the search can notice it.
+TEST(SiteInputs, AStopEndsTheSearchOfATile) {
+  const std::vector<VoronoiSite> sites = {site_of_point({0, 0, 0}), site_of_point({1, 0, 0})};
+  SiteVoronoiOptions options;
+  options.resolution = 8;
+  std::stop_source stop;
+  const auto at_end = [&](double done) {
+    EXPECT_EQ(done, 1);
+    stop.request_stop();
+  };
+  const Result<SiteVoronoi> found = find_site_voronoi(sites, options, at_end, stop.get_token());
+  ASSERT_FALSE(found.ok());
+  EXPECT_EQ(found.error().code, ErrorCode::kInterrupted);
+}
+
+/// A bound by counts: without the budget of tiles, 4,000 cells for each of 6,000 voxels.
+TEST(SiteInputs, SitesThatNearlyCoincideHaveABudget) {
+  const Mesh ball = make_sphere(1, 512);
+  const std::vector<VoronoiSite> sites = {site_of_mesh(ball), site_of_mesh(moved(ball, {0.001, 0, 0}))};
+  const Result<SiteVoronoi> found = find_at(sites, 10), other = find_at(sites, 10, 1);
+  ASSERT_TRUE(found.ok() && other.ok());
+  const std::array<std::uint32_t, 3>& size = found.value().grid.size;
+  const std::uint64_t voxels = std::uint64_t{size[0]} * size[1] * size[2];
+  // Of a tile of n voxels: n of its voxels, at most n / 7 + 5 larger cubes, and 4,000 + 72 n divisions, with the last
+  // ones of each voxel, which are begun below the bound: at most 8 for each of six levels.
+  EXPECT_LT(found.value().cells, 8 * (4000 + 8) + (72 + 48 + 2) * voxels);
+  EXPECT_EQ(found.value().cells, other.value().cells);
+  EXPECT_EQ(found.value().undecided, other.value().undecided);
 }
 
 TEST(SiteInputs, ThreadsDoNotChangeTheResult) {
@@ -116,6 +162,32 @@ TEST(SiteInputs, SolidsThatOverlapHaveTheSurfaceOutsideOfBoth) {
     };
     EXPECT_FALSE(is_inside({0, 0, 0}) || is_inside({0.6, 0.3, 0.2}));
   }
+}
+
+/// Whether all samples outside of both solids are found.
+void expect_all_found(const std::vector<VoronoiSite>& sites, const SiteVoronoi& voronoi, int chords) {
+  SiteSampler sampler(sites, voronoi.grid, 5);
+  const SampledVoxels voxels(voronoi);
+  std::size_t outside = 0, inside = 0;
+  for (int i = 0; i < chords; ++i) {
+    const std::optional<SiteSample> sample = sampler.next();
+    if (!sample || sample->object_angle < 0x1p-12) continue;
+    ++(sample->is_inside ? inside : outside);
+    if (sample->is_inside) continue;
+    EXPECT_EQ(voxels.state_of(*sample), SampleState::kFound)
+        << "at " << sample->point[0] << ' ' << sample->point[1] << ' ' << sample->point[2];
+  }
+  EXPECT_GT(outside, 500u);
+  EXPECT_GT(inside, 500u);
+}
+
+TEST(SiteInputs, TheSurfaceBeginsAtTheRimOfSolidsThatOverlap) {
+  const std::vector<VoronoiSite> sites = {site_of_mesh(moved(make_box({2, 2, 2}), {-1, -1, -1})),
+                                          site_of_mesh(moved(make_box({2, 2, 2}), {0.2, -0.4, -0.6}))};
+  const Result<SiteVoronoi> found = find_at(sites, 40);
+  ASSERT_TRUE(found.ok());
+  expect_all_found(sites, found.value(), 40000);
+  EXPECT_EQ(found.value().overlaps, (std::vector<std::array<std::uint32_t, 2>>{{0, 1}}));
 }
 
 TEST(SiteInputs, WhereSitesShareAPointItIsNoContactOfTwo) {

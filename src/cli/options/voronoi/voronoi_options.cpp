@@ -17,10 +17,11 @@ namespace {
 constexpr double kGreatestSiteLength = 1e150;  // as of coordinates
 constexpr std::uint64_t kMostSiteVoxels = 2048;
 
-/// Coordinates as they were given.
+/// Coordinates as they were given, and whether options were that have a default.
 struct CoordinateTexts {
   std::vector<std::string> points, segments, triangles;
   std::string from, to;
+  bool has_from = false, has_to = false, has_resolution = false;
 };
 
 /// Numbers with commas between them.
@@ -57,8 +58,8 @@ Status take_places(const char* option, const std::vector<std::string>& texts, st
   return {};
 }
 
-Status take_end(const char* option, const std::string& text, std::optional<Point>& target) {
-  if (text.empty()) return {};
+Status take_end(const char* option, bool is_given, const std::string& text, std::optional<Point>& target) {
+  if (!is_given) return {};
   const Result<std::array<Point, 1>> place = parse_places<1>(option, text);
   if (!place) return place.error();
   target = place.value()[0];
@@ -69,8 +70,8 @@ Status take_coordinates(const CoordinateTexts& texts, VoronoiCommandOptions& opt
   if (Status status = take_places<1>("--point", texts.points, options.points); !status) return status;
   if (Status status = take_places<2>("--segment", texts.segments, options.segments); !status) return status;
   if (Status status = take_places<3>("--triangle", texts.triangles, options.triangles); !status) return status;
-  if (Status status = take_end("--from", texts.from, options.from); !status) return status;
-  return take_end("--to", texts.to, options.to);
+  if (Status status = take_end("--from", texts.has_from, texts.from, options.from); !status) return status;
+  return take_end("--to", texts.has_to, texts.to, options.to);
 }
 
 void declare_voronoi(CLI::App& app, VoronoiCommandOptions& options, CoordinateTexts& texts, ViewChoice& view) {
@@ -109,7 +110,7 @@ bool is_shape_file(const std::string& file) {
 }
 
 /// Whether the sites are in space or in the plane, and that they are not of both.
-Status choose_dimension(VoronoiCommandOptions& options) {
+Status choose_dimension(const CoordinateTexts& texts, VoronoiCommandOptions& options) {
   const auto shapes = std::ranges::count_if(options.files, is_shape_file);
   options.in_plane = shapes > 0;
   if (!options.in_plane) return {};
@@ -120,6 +121,9 @@ Status choose_dimension(VoronoiCommandOptions& options) {
   if (has_spatial) return usage_error("--point, --segment and --triangle are sites in space, not in the plane");
   if (options.split || options.ascii || !options.roadmap.empty()) {
     return usage_error("--split, --ascii and --roadmap are about sites in space");
+  }
+  if (options.check || texts.has_resolution || texts.has_from || texts.has_to) {
+    return usage_error("--check, --resolution, --from and --to are about sites in space");
   }
   return {};
 }
@@ -201,6 +205,9 @@ Result<VoronoiCommandOptions> VoronoiOptionParser::parse(const std::vector<std::
   if (Status status = parse_arguments(declared_->app, arguments, "files are sites"); !status) return status.error();
   if (options.help) return options;
   if (options.quiet && options.verbose) return usage_error("-q and -v cannot be used together");
+  declared_->texts.has_from = declared_->app.count("--from") > 0;
+  declared_->texts.has_to = declared_->app.count("--to") > 0;
+  declared_->texts.has_resolution = declared_->app.count("--resolution") > 0;
   if (Status status = take_coordinates(declared_->texts, options); !status) return status.error();
   const std::size_t given =
       options.files.size() + options.points.size() + options.segments.size() + options.triangles.size();
@@ -208,7 +215,7 @@ Result<VoronoiCommandOptions> VoronoiOptionParser::parse(const std::vector<std::
     return usage_error("give two sites or more: files, --point, --segment and --triangle");
   }
   if (std::ranges::count(options.files, "-") > 1) return usage_error("standard input is one site, not several");
-  if (Status status = choose_dimension(options); !status) return status.error();
+  if (Status status = choose_dimension(declared_->texts, options); !status) return status.error();
   if (options.from.has_value() != options.to.has_value()) return usage_error("--from and --to are used together");
   if (options.from && options.roadmap.empty()) return usage_error("--from and --to are about --roadmap");
   if (Status status = take_view(declared_->view, !options.picture.empty(), options.picture_options.view); !status) {
