@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/parallel.h"
 #include "plane/diagram/diagram_nodes.h"
+#include "plane/diagram/parallel_sort.h"
 
 namespace medial_vk::plane {
 namespace {
 
-constexpr std::size_t kLeavesAtATime = 64, kPairsAtATime = 64;
+constexpr std::size_t kLeavesAtATime = 64, kPairsAtATime = 64, kNodesAtATime = 512;
 
 /// Of all leaves, in their order.
 DiagramParts parts_of_leaves(const SiteSet& sites, const DiagramQuery& query, const CellTree& tree,
@@ -35,7 +35,7 @@ DiagramParts parts_of_leaves(const SiteSet& sites, const DiagramQuery& query, co
     all.contacts.insert(all.contacts.end(), part.contacts.begin(), part.contacts.end());
     all.pairs.insert(all.pairs.end(), part.pairs.begin(), part.pairs.end());
   }
-  std::ranges::sort(all.pairs);
+  parallel_sort(all.pairs, query.threads);
   all.pairs.erase(std::unique(all.pairs.begin(), all.pairs.end()), all.pairs.end());
   return all;
 }
@@ -160,6 +160,7 @@ void close_arcs(const std::vector<OpenArc>& open, Diagram& diagram) {
     diagram.nodes.push_back(node);
     return static_cast<std::uint32_t>(diagram.nodes.size() - 1);
   };
+  diagram.arcs.reserve(open.size());
   for (const OpenArc& arc : open) {
     const std::uint32_t from = node_at(arc, arc.ends[0]), to = node_at(arc, arc.ends[1]);
     diagram.arcs.push_back({arc.contacts, arc.curve, {from, to}, {arc.ends[0].t, arc.ends[1].t}});
@@ -167,27 +168,29 @@ void close_arcs(const std::vector<OpenArc>& open, Diagram& diagram) {
 }
 
 /// Where contacts nearly coincide, rounding can accept one arc for several pairs of them. The first is kept.
-void drop_copies(std::vector<DiagramArc>& arcs) {
-  std::vector<std::uint32_t> order(arcs.size());
-  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-  const auto ends = [&](std::uint32_t i) {
-    return std::pair(std::min(arcs[i].nodes[0], arcs[i].nodes[1]), std::max(arcs[i].nodes[0], arcs[i].nodes[1]));
-  };
-  std::ranges::sort(order,
-                    [&](std::uint32_t a, std::uint32_t b) { return std::pair(ends(a), a) < std::pair(ends(b), b); });
+void drop_copies(std::vector<DiagramArc>& arcs, unsigned threads) {
+  using Ends = std::pair<std::uint64_t, std::uint32_t>;  // both nodes in a number, and the arc
+  std::vector<Ends> order(arcs.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) {
+    const auto [least, most] = std::minmax(arcs[i].nodes[0], arcs[i].nodes[1]);
+    order[i] = {std::uint64_t{least} << 32 | most, i};
+  }
+  parallel_sort(order, threads);
   std::vector<bool> is_copy(arcs.size());
   const auto middle = [&](const DiagramArc& arc) { return arc.curve.at((arc.t[0] + arc.t[1]) / 2); };
   for (std::size_t i = 0; i < order.size(); ++i) {
-    if (is_copy[order[i]]) continue;
-    const DiagramArc& arc = arcs[order[i]];
+    if (is_copy[order[i].second]) continue;
+    const DiagramArc& arc = arcs[order[i].second];
     const double slack = 64 * tie(arc.curve.radius_at(arc.t[0]));
-    for (std::size_t k = i + 1; k < order.size() && ends(order[k]) == ends(order[i]); ++k) {
-      if (distance(middle(arc), middle(arcs[order[k]])) <= slack) is_copy[order[k]] = true;
+    for (std::size_t k = i + 1; k < order.size() && order[k].first == order[i].first; ++k) {
+      if (distance(middle(arc), middle(arcs[order[k].second])) <= slack) is_copy[order[k].second] = true;
     }
   }
   std::size_t kept = 0;
   for (std::size_t i = 0; i < arcs.size(); ++i) {
-    if (!is_copy[i]) arcs[kept++] = arcs[i];
+    if (is_copy[i]) continue;
+    if (kept != i) arcs[kept] = arcs[i];
+    ++kept;
   }
   arcs.erase(arcs.begin() + static_cast<std::ptrdiff_t>(kept), arcs.end());
 }
@@ -196,13 +199,18 @@ void drop_copies(std::vector<DiagramArc>& arcs) {
 void drop_lone_nodes(const SiteSet& sites, const DiagramQuery& query, const DiagramNodes& found, Diagram& diagram) {
   std::vector<bool> is_end(diagram.nodes.size());
   for (const DiagramArc& arc : diagram.arcs) is_end[arc.nodes[0]] = is_end[arc.nodes[1]] = true;
+  parallel_blocks(diagram.nodes.size(), kNodesAtATime, query.threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      DiagramNode& node = diagram.nodes[i];
+      if (node.kind != NodeKind::kMeeting && node.kind != NodeKind::kCorner) continue;
+      const auto contacts = found.contacts_of(static_cast<std::uint32_t>(i));
+      node.object_angle = greatest_object_angle(sites, query.wanted, contacts, node.circle.centre);
+    }
+  });
   std::vector<std::uint32_t> place(diagram.nodes.size());
   std::uint32_t count = 0;
   for (std::uint32_t i = 0; i < diagram.nodes.size(); ++i) {
-    DiagramNode node = diagram.nodes[i];
-    if (node.kind == NodeKind::kMeeting || node.kind == NodeKind::kCorner) {
-      node.object_angle = greatest_object_angle(sites, query.wanted, found.contacts_of(i), node.circle.centre);
-    }
+    const DiagramNode node = diagram.nodes[i];
     const bool is_salient =
         node.kind == NodeKind::kMeeting && node.object_angle >= query.least_angle(node.circle.radius);
     if (!is_end[i] && !is_salient) continue;
@@ -225,7 +233,7 @@ Diagram find_diagram(const SiteSet& sites, const DiagramQuery& query, LoopWatch&
   Diagram diagram;
   diagram.nodes = nodes.nodes();
   close_arcs(open, diagram);
-  drop_copies(diagram.arcs);
+  drop_copies(diagram.arcs, query.threads);
   drop_lone_nodes(sites, query, nodes, diagram);
   diagram.cells = tree.size();
   diagram.clustered = nodes.clustered();

@@ -4,6 +4,8 @@
 #include <numbers>
 #include <utility>
 
+#include "plane/diagram/parallel_sort.h"
+
 namespace medial_vk::plane {
 namespace {
 
@@ -29,11 +31,13 @@ GridKey key_of(Vec2 x, std::uint32_t node) {
   return {static_cast<std::int64_t>(std::floor(x.x / kGrid)), static_cast<std::int64_t>(std::floor(x.y / kGrid)), node};
 }
 
+std::size_t number_of(Contact contact) { return 2 * std::size_t{contact.site} + (contact.side == Side::kLeft ? 0 : 1); }
+
 }  // namespace
 
 DiagramNodes::DiagramNodes(const SiteSet& sites, const DiagramQuery& query, const CellTree& tree,
                            const DiagramParts& parts)
-    : sites_(sites), wanted_(query.wanted) {
+    : sites_(sites), wanted_(query.wanted), threads_(query.threads) {
   add_vertices(parts);
   add_corners(query, tree);
   add_clusters(tree);
@@ -43,7 +47,8 @@ DiagramNodes::DiagramNodes(const SiteSet& sites, const DiagramQuery& query, cons
 
 void DiagramNodes::add(const DiagramNode& node, std::span<const Contact> contacts) {
   nodes_.push_back(node);
-  contacts_.emplace_back(contacts.begin(), contacts.end());
+  first_.push_back(contacts_.size());
+  contacts_.insert(contacts_.end(), contacts.begin(), contacts.end());
 }
 
 void DiagramNodes::add_vertices(const DiagramParts& parts) {
@@ -118,23 +123,20 @@ void DiagramNodes::join_coincident() {
   std::vector<GridKey> keys;
   keys.reserve(nodes_.size());
   for (std::uint32_t i = 0; i < nodes_.size(); ++i) keys.push_back(key_of(nodes_[i].circle.centre, i));
-  std::ranges::sort(keys);
-  const auto join_within = [&](const GridKey& key, std::int64_t dx, std::int64_t dy) {
-    const GridKey cell = {key.x + dx, key.y + dy, 0};
-    for (auto other = std::ranges::lower_bound(keys, cell);
-         other != keys.end() && other->x == cell.x && other->y == cell.y; ++other) {
-      const Circle &a = nodes_[key.node].circle, &b = nodes_[other->node].circle;
-      if (other->node != key.node && distance(a.centre, b.centre) <= merge_distance(std::max(a.radius, b.radius))) {
-        join(key.node, other->node);
-      }
+  parallel_sort(keys, threads_);
+  // Later keys up to one cell away: those of the same column follow, those of the next one are kept track of.
+  std::size_t ahead = 0;
+  const auto join_near = [&](const GridKey& key, std::size_t from, std::int64_t x) {
+    for (; from < keys.size() && keys[from].x == x && keys[from].y <= key.y + 1; ++from) {
+      const Circle &a = nodes_[key.node].circle, &b = nodes_[keys[from].node].circle;
+      if (distance(a.centre, b.centre) <= merge_distance(std::max(a.radius, b.radius))) join(key.node, keys[from].node);
     }
   };
-  for (const GridKey& key : keys) {
-    join_within(key, 0, 0);
-    join_within(key, 1, -1);
-    join_within(key, 1, 0);
-    join_within(key, 1, 1);
-    join_within(key, 0, 1);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const GridKey &key = keys[i], next = {key.x + 1, key.y - 1, 0};
+    while (ahead < keys.size() && keys[ahead] < next) ++ahead;
+    join_near(key, i + 1, key.x);
+    join_near(key, ahead, key.x + 1);
   }
 }
 
@@ -182,48 +184,60 @@ void DiagramNodes::keep_roots() {
   std::uint32_t count = 0;
   for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
     const std::uint32_t root = root_of(i);
-    if (root != i) {  // roots come first
-      std::vector<Contact>& all = contacts_[place[root]];
-      all.insert(all.end(), contacts_[i].begin(), contacts_[i].end());
-      continue;
-    }
-    place[i] = count;
-    nodes_[count] = nodes_[i];
-    if (count != i) contacts_[count] = std::move(contacts_[i]);
-    ++count;
+    place[i] = root == i ? count : place[root];  // roots come first
+    if (root == i) nodes_[count++] = nodes_[i];
   }
   nodes_.resize(count);
-  contacts_.resize(count);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    std::vector<Contact>& all = contacts_[i];
-    std::ranges::sort(all);
-    all.erase(std::unique(all.begin(), all.end()), all.end());
+  join_contacts(place, count);
+}
+
+/// Those of all nodes that became one, sorted, each once.
+void DiagramNodes::join_contacts(const std::vector<std::uint32_t>& place, std::size_t count) {
+  first_.push_back(contacts_.size());
+  std::vector<std::size_t> next(count + 1);
+  for (std::size_t i = 0; i < place.size(); ++i) next[place[i] + 1] += first_[i + 1] - first_[i];
+  for (std::size_t i = 0; i < count; ++i) next[i + 1] += next[i];
+  std::vector<std::size_t> begins = next;
+  std::vector<Contact> joined(contacts_.size());
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    for (std::size_t k = first_[i]; k < first_[i + 1]; ++k) joined[next[place[i]]++] = contacts_[k];
   }
+  first_.assign(1, 0);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto begin = joined.begin() + static_cast<std::ptrdiff_t>(begins[i]);
+    const auto end = joined.begin() + static_cast<std::ptrdiff_t>(begins[i + 1]);
+    std::sort(begin, end);
+    const auto out = joined.begin() + static_cast<std::ptrdiff_t>(kept);
+    kept += static_cast<std::size_t>(std::copy(begin, std::unique(begin, end), out) - out);
+    first_.push_back(kept);
+  }
+  joined.resize(kept);
+  contacts_ = std::move(joined);
 }
 
 void DiagramNodes::index_contacts() {
-  for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
-    for (const Contact contact : contacts_[i]) by_contact_.emplace_back(contact, i);
+  first_node_.assign(2 * std::size_t{sites_.size()} + 1, 0);
+  for (const Contact contact : contacts_) ++first_node_[number_of(contact) + 1];
+  for (std::size_t i = 1; i < first_node_.size(); ++i) first_node_[i] += first_node_[i - 1];
+  std::vector<std::size_t> next(first_node_.begin(), first_node_.end() - 1);
+  nodes_of_.resize(contacts_.size());
+  for (std::uint32_t node = 0; node < nodes_.size(); ++node) {
+    for (const Contact contact : contacts_of(node)) nodes_of_[next[number_of(contact)]++] = node;
   }
-  std::ranges::sort(by_contact_);
 }
 
-std::span<const std::pair<Contact, std::uint32_t>> DiagramNodes::nodes_at(Contact contact) const {
-  const auto begin = std::ranges::lower_bound(by_contact_, std::pair<Contact, std::uint32_t>{contact, 0});
-  const auto end = std::ranges::upper_bound(begin, by_contact_.end(), std::pair<Contact, std::uint32_t>{contact, ~0u});
-  return {begin, end};
+std::span<const std::uint32_t> DiagramNodes::nodes_at(Contact contact) const {
+  const std::size_t i = number_of(contact);
+  return std::span(nodes_of_).subspan(first_node_[i], first_node_[i + 1] - first_node_[i]);
 }
 
 void DiagramNodes::find_between(const ContactPair& pair, std::vector<std::uint32_t>& found) const {
   auto fewer = nodes_at(pair[0]), more = nodes_at(pair[1]);
-  Contact other_contact = pair[1];
-  if (fewer.size() > more.size()) {
-    std::swap(fewer, more);
-    other_contact = pair[0];
-  }
+  if (fewer.size() > more.size()) std::swap(fewer, more);
   found.clear();
-  for (const auto& [contact, node] : fewer) {
-    if (std::ranges::binary_search(more, std::pair(other_contact, node))) found.push_back(node);
+  for (const std::uint32_t node : fewer) {
+    if (std::ranges::binary_search(more, node)) found.push_back(node);
   }
 }
 

@@ -17,7 +17,9 @@ class DiagramNodes {
   std::vector<DiagramNode>& nodes() { return nodes_; }
   double clustered() const { return clustered_; }
   /// Of a node, sorted.
-  std::span<const Contact> contacts_of(std::uint32_t node) const { return contacts_[node]; }
+  std::span<const Contact> contacts_of(std::uint32_t node) const {
+    return std::span(contacts_).subspan(first_[node], first_[node + 1] - first_[node]);
+  }
   /// Sets `found` to the nodes that touch both, in their order. Any thread.
   void find_between(const ContactPair& pair, std::vector<std::uint32_t>& found) const;
 
@@ -33,18 +35,22 @@ class DiagramNodes {
   std::uint32_t root_of(std::uint32_t i);
   void join(std::uint32_t a, std::uint32_t b);
   void keep_roots();
+  void join_contacts(const std::vector<std::uint32_t>& place, std::size_t count);
   void index_contacts();
-  std::span<const std::pair<Contact, std::uint32_t>> nodes_at(Contact contact) const;
+  std::span<const std::uint32_t> nodes_at(Contact contact) const;
 
   const SiteSet& sites_;
   Wanted wanted_;
+  unsigned threads_;
   std::vector<DiagramNode> nodes_;
-  std::vector<std::vector<Contact>> contacts_;
+  std::vector<std::size_t> first_;  // of a node's contacts, and the end of the last
+  std::vector<Contact> contacts_;
   std::vector<std::uint32_t> parent_;
   std::vector<std::uint32_t> cluster_cells_;
   std::uint32_t first_cluster_ = 0;
   double clustered_ = 0;
-  std::vector<std::pair<Contact, std::uint32_t>> by_contact_;  // sorted
+  std::vector<std::size_t> first_node_;  // by number of a contact
+  std::vector<std::uint32_t> nodes_of_;  // ascending for each contact
 };
 
 }  // namespace medial_vk::plane

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 
 #include "base/parallel.h"
 #include "base/point_order.h"
@@ -13,6 +14,7 @@ namespace {
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
 constexpr std::size_t kEdgesOfLeaf = 8, kChildren = 4, kLeavesAtATime = 32;
+constexpr double kTurnRounding = 0x1p-50;   // of two coordinates within [-1/2, 1/2] in another direction
 constexpr std::size_t kMostOverlaps = 256;  // of a leaf with others, in the mean
 
 bool overlap(const Box& a, const Box& b, double gap) {
@@ -25,17 +27,32 @@ void enlarge(Box& box, const Box& by) {
   box.add(by.upper);
 }
 
-/// Boxes of segments in an order along a curve, in groups, groups of groups, and so on.
+/// The direction in which most of the length of all segments lies, or across it: by the mean of four times their
+/// angles.
+Vec2 main_direction(const SiteSet& sites) {
+  Vec2 mean;
+  for (std::uint32_t site = sites.points(); site < sites.size(); ++site) {
+    const Segment& s = sites.segment(site);
+    const double cosine = s.along.x * s.along.x - s.along.y * s.along.y, sine = 2 * s.along.x * s.along.y;  // of twice
+    mean = mean + s.length * Vec2{cosine * cosine - sine * sine, 2 * cosine * sine};
+  }
+  const double angle = std::atan2(mean.y, mean.x) / 4;
+  return {std::cos(angle), std::sin(angle)};
+}
+
+/// Boxes of segments in an order along a curve, in groups, groups of groups, and so on. Their sides lie in the main
+/// direction of the segments and across it, so that long parallel ones have thin boxes.
 class BoxLevels {
  public:
-  BoxLevels(const SiteSet& sites, double gap) : sites_(sites), gap_(gap) {
+  BoxLevels(const SiteSet& sites, double gap)
+      : sites_(sites), gap_(gap), box_gap_(gap + kTurnRounding), direction_(main_direction(sites)) {
     const std::uint32_t count = sites.size() - sites.points();
     std::vector<Point> middles;
     middles.reserve(count);
     for (std::uint32_t i = 0; i < count; ++i) {
       const Segment& s = sites.segment(sites.points() + i);
       const Vec2 middle = s.begin + (s.length / 2) * s.along;
-      middles.push_back({middle.x, middle.y, 0});
+      middles.push_back({turned(middle).x, turned(middle).y, 0});
     }
     for (const std::uint32_t i : order_along_curve(middles)) edges_.push_back(sites.points() + i);
     for (const std::uint32_t edge : edges_) boxes_.push_back(box_of_edge(edge));
@@ -57,7 +74,7 @@ class BoxLevels {
       for (std::size_t i = leaf * kEdgesOfLeaf; i < end_of(leaf); ++i) {
         const std::size_t first = other == leaf ? i + 1 : other * kEdgesOfLeaf;
         for (std::size_t k = first; k < end_of(other); ++k) {
-          if (!overlap(boxes_[i], boxes_[k], gap_) || are_apart(edges_[i], edges_[k])) continue;
+          if (!overlap(boxes_[i], boxes_[k], box_gap_) || are_apart(edges_[i], edges_[k])) continue;
           pairs.emplace_back(std::minmax(edges_[i], edges_[k]));
         }
       }
@@ -65,11 +82,12 @@ class BoxLevels {
   }
 
  private:
+  Vec2 turned(Vec2 x) const { return {dot(direction_, x), cross(direction_, x)}; }
   std::size_t end_of(std::size_t leaf) const { return std::min((leaf + 1) * kEdgesOfLeaf, edges_.size()); }
 
   Box box_of_edge(std::uint32_t edge) const {
     Box box;
-    for (const std::uint32_t end : sites_.segment(edge).ends) box.add(sites_.point(end));
+    for (const std::uint32_t end : sites_.segment(edge).ends) box.add(turned(sites_.point(end)));
     return box;
   }
 
@@ -80,7 +98,7 @@ class BoxLevels {
   }
 
   void collect(std::size_t level, std::size_t node, std::size_t leaf, std::vector<std::size_t>& others) const {
-    if (!overlap(levels_[level][node], levels_.front()[leaf], gap_)) return;
+    if (!overlap(levels_[level][node], levels_.front()[leaf], box_gap_)) return;
     if (level == 0) {
       if (node >= leaf) others.push_back(node);
       return;
@@ -99,7 +117,8 @@ class BoxLevels {
   bool are_apart(std::uint32_t a, std::uint32_t b) const { return is_beside(a, b) || is_beside(b, a); }
 
   const SiteSet& sites_;
-  const double gap_;
+  const double gap_, box_gap_;
+  const Vec2 direction_;
   std::vector<std::uint32_t> edges_;  // sites
   std::vector<Box> boxes_;
   std::vector<std::vector<Box>> levels_;

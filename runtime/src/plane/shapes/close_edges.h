@@ -11,8 +11,8 @@
 namespace medial_vk::plane {
 
 /// Pairs of segments, by site, whose boxes are no farther apart than `gap`, and of which neither lies beside the
-/// other's line by more: sorted. None if the boxes of so many segments overlap, as those of long parallel ones do that
-/// lie across the axes, that another way is faster. Throws std::bad_alloc and LoopStopped.
+/// other's line by more: sorted. None if the boxes of so many segments overlap, as those of long ones do that lie side
+/// by side in many directions, that another way is faster. Throws std::bad_alloc and LoopStopped.
 std::optional<std::vector<std::pair<std::uint32_t, std::uint32_t>>> close_edges(const SiteSet& sites, double gap,
                                                                                 unsigned threads,
                                                                                 const LoopWatch& watch);
