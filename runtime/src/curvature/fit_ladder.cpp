@@ -1,15 +1,14 @@
 #include "curvature/fit_ladder.h"
 
 #include "base/parallel.h"
+#include "curvature/patch_blend.h"
 
 namespace medial_vk {
 namespace {
 
 constexpr std::size_t kSteps = kWindows.size();
-constexpr double kSameSide = 0.7;      // of spokes of tips that are compared
-constexpr double kAnchorShare = 0.16;  // of a window's radius: how far patches are apart
-constexpr double kBlendShare = 0.3;    // within which they are blended
-constexpr double kLeastReach = 10.0;   // spacings from a tip to others whose windows tell what is usual
+constexpr double kSameSide = 0.7;     // of spokes of tips that are compared
+constexpr double kLeastReach = 10.0;  // spacings from a tip to others whose windows tell what is usual
 
 double angle_of(const Point& a, const Point& b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
 
@@ -46,22 +45,6 @@ void compact(const std::vector<std::uint8_t>& is_used, LadderStep& step) {
   cloud.normals.resize(known);
 }
 
-/// The tips with patches: those of lower numbers first, and none nearer than `distance` to another one on its side.
-/// Every tip has one within that distance.
-std::vector<std::uint32_t> anchors_of(const TipCloud& cloud, const PointGrid& grid, double distance) {
-  std::vector<std::uint8_t> is_free(cloud.tips.size(), 1);
-  std::vector<std::uint32_t> out;
-  out.reserve(cloud.tips.size());
-  for (std::uint32_t i = 0; i < is_free.size(); ++i) {
-    if (is_free[i] == 0) continue;
-    out.push_back(i);
-    grid.visit_within(cloud.tips[i], distance, [&](std::uint32_t other, double) {
-      if (are_on_one_side(cloud.normals[i], cloud.normals[other])) is_free[other] = 0;
-    });
-  }
-  return out;
-}
-
 TipCloud part_of(const TipCloud& cloud, std::span<const std::uint32_t> numbers) {
   TipCloud out;
   out.tips.reserve(numbers.size());
@@ -71,39 +54,6 @@ TipCloud part_of(const TipCloud& cloud, std::span<const std::uint32_t> numbers) 
     out.normals.push_back(cloud.normals[i]);
   }
   return out;
-}
-
-/// From sums over patches to their mean.
-TipFit mean_of(TipFit sum, double weights) {
-  const double size = length(sum.normal);
-  if (!(size > 0)) return {};
-  sum.is_known = true;
-  sum.normal = 1 / size * sum.normal;
-  sum.form /= weights;
-  sum.spread /= weights;
-  return sum;
-}
-
-/// The mean of the patches on the same side within `reach`, each at its own place over the tip. Not known where one of
-/// them is not: there the boundary bends too much within the window, or tips end, and the others would be continued
-/// beyond what they were fitted to.
-TipFit blend(std::span<const TipPatch> patches, const TipCloud& middles, const PointGrid& grid, const Point& tip,
-             const Point& normal, double reach) {
-  TipFit sum;
-  double weights = 0, nearest = 2 * reach * reach;
-  bool are_all_known = true;
-  grid.visit_within(tip, reach, [&](std::uint32_t i, double squared) {
-    if (!are_all_known || !are_on_one_side(middles.normals[i], normal)) return;
-    are_all_known = patches[i].is_known;
-    const double left = 1 - squared / (reach * reach), weight = left * left;
-    if (!are_all_known || !(weight > 0)) return;
-    patches[i].add_at(tip, weight, sum);
-    weights += weight;
-    if (squared >= nearest) return;
-    nearest = squared;
-    sum.is_cut = patches[i].is_cut;
-  });
-  return are_all_known ? mean_of(sum, weights) : TipFit{};
 }
 
 }  // namespace
@@ -224,7 +174,7 @@ void FitLadder::fit_tips(std::size_t step, double radius, unsigned threads) {
     if (stop_.stop_requested()) return;
     const Point& tip = at.cloud.tips[i];
     TipFit& fit = at.fits[at.numbers[i]];
-    fit = blend(patches, middles, grid, tip, at.cloud.normals[i], reach);
+    fit = blend_patches(patches, middles, grid, tip, at.cloud.normals[i], reach);
     if (fit.is_known) return;
     const TipPatch own = patch_at(static_cast<std::uint32_t>(i));
     if (!own.is_known) return;

@@ -20,6 +20,10 @@ constexpr double kGapShare = 0.125, kLeastGapShare = 0.1, kUsefulShare = 0.1;
 // An interval that is this many times as wide is enough where a narrow one takes too long (docs/decisions.md).
 constexpr double kWidening = 4;
 
+// Where a search has taken this many distances, points met elsewhere are no help: they shorten reaches by little, and
+// new ones are needed in any case.
+constexpr std::size_t kMostRecalling = 25;
+
 constexpr std::size_t kMostOthers = 8, kMostKept = 24;
 
 Point unit_or_zero(const Point& v) {
@@ -41,10 +45,6 @@ BallsNear::BallsNear(const ThicknessField& field)
 
 void BallsNear::start(const Point& p) {
   p_ = p;
-  contacts_.clear();
-  used_.clear();
-  normals_.clear();
-  for (const BallContact& kept : kept_) add({kept.at - p, dot(kept.at - p, kept.at - p)}, kept.normal);
   others_.clear();
   best_ = {};
   doubtful_ = 0;
@@ -59,6 +59,11 @@ void BallsNear::start(const Point& p) {
   rounding_ = 4 * field_.solid.rounding() + 0x1p-44 * off;
   slack_ = {delta_ + rounding_, delta_ + 2 * rounding_};
   off_ = off + rounding_;
+  contacts_.start(most_reach(), slack_);
+  pool_.start(p, most_reach(), slack_);
+  used_.clear();
+  normals_.clear();
+  for (const BallContact& kept : kept_) add({kept.at - p, dot(kept.at - p, kept.at - p)}, kept.normal);
 }
 
 /// If a direction has a point in the other ball at a distance from p that is above delta and at most that of a centre,
@@ -79,7 +84,9 @@ BallsNear::Probe BallsNear::probe_at(const Point& direction, double distance) {
   if (++queries_ == field_.options.patience) raise_target(std::max(best_.radius, doubtful_));
   const double radius = std::sqrt(hit.squared_distance) - rounding_;
   const Point at = hit.point - p_;
-  add({at, dot(at, at)}, unit_or_zero(at - offset));
+  const Point normal = unit_or_zero(at - offset);
+  add({at, dot(at, at)}, normal);
+  pool_.add({hit.point, normal});
   const bool is_near = distance * kBoundRounding + rounding_ <= radius + delta_;
   if (is_near && radius > std::max(best_.radius, doubtful_)) record(offset, radius);
   return {is_near, dot(direction, at), radius};
@@ -124,6 +131,18 @@ void BallsNear::go_back(const Point& direction, double distance, Probe found) {
     distance = next;
     found = probe_at(direction, distance);
   }
+}
+
+double BallsNear::recall(const Point& direction, double reach) {
+  if (queries_ >= kMostRecalling) return reach;
+  const std::uint32_t number = pool_.least_reach(direction, reach);
+  if (number == kNoContact) return reach;
+  const Point at = pool_[number].at - p_;
+  const Contact contact = {at, dot(at, at)};
+  const double found = reach_by(contact, dot(direction, at), slack_);
+  if (!(found < reach)) return reach;
+  add(contact, pool_[number].normal);
+  return found;
 }
 
 void BallsNear::add(const Contact& contact, const Point& normal) {

@@ -11,6 +11,7 @@
 #include "solid/solid.h"
 #include "thickness/ball_kind.h"
 #include "thickness/contact_lists.h"
+#include "thickness/contact_pool.h"
 
 namespace medial_vk {
 
@@ -39,6 +40,9 @@ class BallsNear {
     double radius;  ///< Of that ball.
   };
   Probe probe_at(const Point& direction, double distance);
+  /// Takes the contact from the last points that has the least reach in a direction, if that is less than `reach`, and
+  /// returns its reach; else returns `reach`, as always in a long search.
+  double recall(const Point& direction, double reach);
   void add_mixture(const Contact& contact) { add(contact, {0, 0, 0}); }
 
   /// The greatest distance of centres that is in question at all.
@@ -94,6 +98,7 @@ class BallsNear {
   Slack slack_;
   double off_ = 0;  // at least the distance of p from the boundary
   ContactLists contacts_;
+  ContactPool pool_;
   std::vector<bool> used_;      // by contact: it has shown something
   std::vector<Point> normals_;  // by contact: away from the centre that it was met from; zero: a mixture
   std::vector<Ball> others_;

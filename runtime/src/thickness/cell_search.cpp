@@ -11,12 +11,6 @@ constexpr auto kIsLater = [](const auto& a, const auto& b) {
   return a.reach != b.reach ? a.reach < b.reach : a.number > b.number;
 };
 
-FourDirections four_times(const Point& direction) {
-  FourDirections four;
-  for (std::size_t k = 0; k < 3; ++k) four[k].fill(direction[k]);
-  return four;
-}
-
 }  // namespace
 
 void CellSearch::start() {
@@ -36,12 +30,12 @@ void CellSearch::divide() {
   std::pop_heap(open_.begin(), open_.end(), kIsLater);
   Open open = open_.back();
   open_.pop_back();
-  evaluate(open);
+  evaluate_again(open);
   if (is_closed(open)) return;
   const double reach = reach_along_middle(open);
   if (reach > balls_.target()) {
     balls_.probe(open.cell.middle(), reach);
-    evaluate(open);
+    evaluate_again(open);
     show_along(open);
     if (is_closed(open)) return;
   }
@@ -57,7 +51,7 @@ void CellSearch::divide() {
 }
 
 double CellSearch::reach_along_middle(const Open& open) {
-  return balls_.contacts().reach_along(open.cell.middle(), balls_.slack(), open.reach, open.list).most;
+  return balls_.contacts().reach_along(open.cell.middle(), open.reach, open.list).most;
 }
 
 void CellSearch::push(Open open) {
@@ -69,9 +63,14 @@ void CellSearch::push(Open open) {
 }
 
 void CellSearch::evaluate(Open& open) {
-  const auto [reach, by] = balls_.contacts().narrow(open.cell, balls_.slack(), open.reach, open.list);
+  const auto [reach, by] = balls_.contacts().narrow(open.cell, open.reach, open.list);
   open.reach = reach;
   if (by != ContactLists::kNone && reach <= balls_.least_reach()) balls_.mark_used(by);
+}
+
+/// Of a cell that was evaluated before.
+void CellSearch::evaluate_again(Open& open) {
+  if (open.list.seen < balls_.contacts().size()) evaluate(open);
 }
 
 /// True if no ball around a centre in these directions is larger than the target and on this side.
@@ -79,7 +78,7 @@ bool CellSearch::is_closed(const Open& open) {
   if (open.reach <= balls_.least_reach() || is_on_other_side(open)) return true;
   // Where a contact within the target of a centre makes its ball too small, the centre is no farther from p than this.
   if (open.reach > balls_.target() + 2 * balls_.delta()) return false;
-  return shown_up_to(open.cell.corners(), open.cell.bulge(), open) >= open.reach;
+  return shown_in(open) >= open.reach;
 }
 
 /// In an open mesh, a ball on the other side must hold all centres in question.
@@ -95,21 +94,40 @@ bool CellSearch::is_on_other_side(const Open& open) const {
   });
 }
 
-/// The least distance from p, above the target, at which centres in these directions may have balls larger than the
-/// target.
-double CellSearch::shown_up_to(const FourDirections& directions, double bulge, const Open& open) {
-  double shown = balls_.least_reach();
+/// The least distance from p, above the target, at which centres in the cell may have balls larger than the target.
+double CellSearch::shown_in(const Open& open) {
   const double most = balls_.target_of_contacts();
+  double shown = balls_.least_reach();
   if (!(most > 0) || !(shown > 0)) return 0;
-  balls_.contacts().intervals_near(directions, open.list, most, shown, intervals_);
-  for (bool grows = true; grows && shown < open.reach;) {
-    grows = false;
-    for (const ContactLists::Interval& interval : intervals_) {
-      if (interval.lower > shown || interval.upper / bulge <= shown) continue;
-      shown = interval.upper / bulge;
-      balls_.mark_used(interval.number);
-      grows = true;
-    }
+  const double bulge = open.cell.bulge();
+  intervals_.measure(balls_.contacts().scale(), balls_.contacts().range_of(open.list), open.cell, most);
+  while (shown < open.reach) {
+    const std::uint32_t next = intervals_.farthest(shown);
+    if (next == ContactLists::kNone) break;
+    const Bounds near = distances_near(open.cell.corners(), balls_.contacts().contact(next), most);
+    if (near.lower > shown || near.upper / bulge <= shown) break;
+    shown = near.upper / bulge;
+    balls_.mark_used(next);
+  }
+  return shown;
+}
+
+/// The same along the middle ray. `turns`: contacts that show it, and the distances up to which they do.
+double CellSearch::shown_along_middle(const Open& open) {
+  const double most = balls_.target_of_contacts();
+  double shown = balls_.least_reach();
+  turns_.clear();
+  if (!(most > 0) || !(shown > 0)) return 0;
+  intervals_.measure(balls_.contacts().scale(), balls_.contacts().range_of(open.list), open.cell.middle(), most);
+  while (shown < open.reach) {
+    const std::uint32_t next = intervals_.farthest(shown);
+    if (next == ContactLists::kNone) break;
+    const Contact& contact = balls_.contacts().contact(next);
+    const Bounds near = distances_near(dot(open.cell.middle(), contact.at), contact.squared, most);
+    if (near.lower > shown || near.upper <= shown) break;
+    shown = near.upper;
+    balls_.mark_used(next);
+    turns_.push_back({next, shown});
   }
   return shown;
 }
@@ -118,39 +136,28 @@ double CellSearch::shown_up_to(const FourDirections& directions, double bulge, c
 void CellSearch::show_along(Open& open) {
   constexpr int kMostSteps = 8;
   if (open.reach > balls_.target() + 2 * balls_.delta()) return;
-  const FourDirections middle = four_times(open.cell.middle());
   for (int step = 0; step < kMostSteps; ++step) {
-    const double shown = shown_up_to(middle, 1, open);
+    const double shown = shown_along_middle(open);
     if (shown <= 0) return;
     if (shown >= reach_along_middle(open)) return mix_along(open);
     const BallsNear::Probe found = balls_.probe_at(open.cell.middle(), shown);
     if (found.is_near && found.radius > balls_.best().radius) return;  // on the other side
-    evaluate(open);
+    evaluate_again(open);
   }
 }
 
 /// Adds mixtures of the contacts that take turns along the middle ray to show that no ball is larger: beside it, one
 /// contact alone shows it on either side of the medial surface only.
 void CellSearch::mix_along(Open& open) {
-  const Point& direction = open.cell.middle();
   const double end = reach_along_middle(open);
-  double shown = balls_.least_reach();
-  std::uint32_t last = ContactLists::kNone;
-  while (shown < end) {
-    const ContactLists::Interval* next = nullptr;
-    for (const ContactLists::Interval& interval : intervals_) {
-      if (interval.lower <= shown && interval.upper > (next ? next->upper : shown)) next = &interval;
-    }
-    if (!next) break;
-    if (last != ContactLists::kNone) {
-      const std::optional<Contact> mixed =
-          mixture(balls_.contacts().contact(last), balls_.contacts().contact(next->number), shown * direction);
-      if (mixed) balls_.add_mixture(*mixed);
-    }
-    last = next->number;
-    shown = next->upper;
+  for (std::size_t i = 1; i < turns_.size() && turns_[i - 1].end < end; ++i) {
+    const ContactLists& contacts = balls_.contacts();
+    const std::optional<Contact> mixed =
+        mixture(contacts.contact(turns_[i - 1].contact), contacts.contact(turns_[i].contact),
+                turns_[i - 1].end * open.cell.middle());
+    if (mixed) balls_.add_mixture(*mixed);
   }
-  evaluate(open);
+  evaluate_again(open);
 }
 
 }  // namespace medial_vk

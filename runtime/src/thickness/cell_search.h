@@ -30,19 +30,28 @@ class CellSearch {
     std::uint32_t number = 0;      // for one order of equals
   };
 
+  /// A contact shows up to this distance from p that no ball is larger than the target.
+  struct Turn {
+    std::uint32_t contact;
+    double end;
+  };
+
   void divide();
   void push(Open open);
   double reach_along_middle(const Open& open);
   void evaluate(Open& open);
+  void evaluate_again(Open& open);
   bool is_closed(const Open& open);
   bool is_on_other_side(const Open& open) const;
-  double shown_up_to(const FourDirections& directions, double bulge, const Open& open);
+  double shown_in(const Open& open);
+  double shown_along_middle(const Open& open);
   void show_along(Open& open);
   void mix_along(Open& open);
 
   BallsNear& balls_;
   std::vector<Open> open_;  // a heap by reach
-  std::vector<ContactLists::Interval> intervals_;
+  NearIntervals intervals_;
+  std::vector<Turn> turns_;
   std::uint32_t number_ = 0;
   double left_ = 0;  // the greatest reach of cells that cannot be divided
 };

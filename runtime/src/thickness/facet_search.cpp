@@ -43,6 +43,8 @@ void FacetSearch::refine(const CubeFrame& frame) {
     const Point direction = (1 / vertex.length) * vertex.at;
     if (cut_by_known(vertex, direction)) continue;
     if (!is_within_contacts(vertex)) {
+      const double enough = built_for_ * (1 - kPlaneInset);
+      if (balls_.recall(direction, enough) < enough && cut_by_known(vertex, direction)) continue;
       probe(vertex, direction);
       if (balls_.least_reach() != built_for_ || cut_by_known(vertex, direction)) continue;
     }
@@ -53,7 +55,7 @@ void FacetSearch::refine(const CubeFrame& frame) {
 /// Computes the distance of a centre whose ball, if it comes within delta, is larger than the target, or as far away as
 /// the vertex. If it is larger, the largest ball in this direction is found.
 void FacetSearch::probe(const Vertex& vertex, const Point& direction) {
-  const double reach = balls_.contacts().reach_along(direction, balls_.slack(), balls_.most_reach()).most;
+  const double reach = balls_.contacts().reach_along(direction, balls_.most_reach()).most;
   const double distance = std::min({reach, vertex.length, built_for_ + balls_.slack().distance});
   balls_.probe_at(direction, distance * (1 - kProbeInset));
   if (balls_.least_reach() != built_for_) balls_.probe(direction, reach);
@@ -77,8 +79,7 @@ bool FacetSearch::is_within_contacts(const Vertex& vertex) {
 /// A centre at a distance of at most s from p whose ball comes within delta has m.q <= (|q|^2 - delta^2) / 2 + delta s.
 /// No larger ball than the target is farther away than that and delta.
 bool FacetSearch::cut_by_contact(const Vertex& vertex, const Point& direction) {
-  const ContactLists::Reach found =
-      balls_.contacts().reach_along(direction, balls_.slack(), std::numeric_limits<double>::infinity());
+  const ContactLists::Reach found = balls_.contacts().reach_along(direction, std::numeric_limits<double>::infinity());
   const double enough = std::max(built_for_ * (1 - kPlaneInset), vertex.length - kLeastGain * balls_.delta());
   if (found.by == ContactLists::kNone || found.most > enough) return false;
   const Contact contact = balls_.contacts().contact(found.by);

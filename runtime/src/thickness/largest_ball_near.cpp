@@ -21,7 +21,7 @@ Point leaning(const Point& direction, const Point& lean) {
 Thickness LargestBallNear::find(const Point& p, const Point& inward) {
   balls_.start(p);
   const Point first = leaning(inward, lean_);
-  const double reach = balls_.contacts().reach_along(first, balls_.slack(), balls_.most_reach()).most;
+  const double reach = balls_.contacts().reach_along(first, balls_.most_reach()).most;
   balls_.probe(first, reach);
   balls_.probe_at(-1.0 * inward, std::min(kOutward * balls_.delta(), balls_.limit()));
   facets_.run(CubeFrame::around(inward));
