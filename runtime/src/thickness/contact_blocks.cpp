@@ -53,8 +53,7 @@ struct MeasureReach {
 
   MEDIAL_VK_INLINE std::uint32_t operator()() const {
     Greatest greatest(least_share);
-    for (std::size_t i = 0; i < range.blocks.size(); ++i) {
-      const EightContacts& block = range.blocks[i];
+    for (const EightContacts& block : range.blocks) {
       greatest.take((product(direction, block.at) - slack) * load(block.share), numbers_of(block.number));
     }
     return greatest.number();
