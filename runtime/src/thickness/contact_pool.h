@@ -24,7 +24,7 @@ class ContactPool {
   const BallContact& operator[](std::uint32_t number) const { return contacts_[number]; }
 
  private:
-  static constexpr std::size_t kMost = 256;
+  static constexpr std::size_t kMost = 128;
 
   std::vector<BallContact> contacts_, met_;
   std::size_t oldest_ = 0;

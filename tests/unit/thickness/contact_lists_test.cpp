@@ -169,7 +169,7 @@ TEST_F(Contacts, ThatHoldADistanceAreChosen) {
   EXPECT_GT(chosen, 20u);
 }
 
-// The last 256, from the next start on.
+// The last 128, from the next start on.
 TEST_F(Contacts, OfThePoolAreTheLastOnes) {
   ContactPool pool;
   const Point ahead = {0, 0, 1};
@@ -182,7 +182,7 @@ TEST_F(Contacts, OfThePoolAreTheLastOnes) {
   EXPECT_EQ(pool[number].at, (Point{0, 0, 0.5}));
   // Straight ahead at 1.5 from the new point, the reach is (1.5 + slack) / 2.
   EXPECT_EQ(pool.least_reach(ahead, 0.75), kNoContact);
-  for (int i = 0; i < 256; ++i) pool.add({{0, 0, 1}, ahead});
+  for (int i = 0; i < 128; ++i) pool.add({{0, 0, 1}, ahead});
   pool.start({0, 0, -1}, 1, kSlack);
   const std::uint32_t other = pool.least_reach(ahead, kInfinite);
   ASSERT_NE(other, kNoContact);
