@@ -148,15 +148,17 @@ Status FollowerJob::Impl::make_buffers() {
   };
   const VkDeviceSize of_vertices = VkDeviceSize{vertex_count} * sizeof(RecordedVertex), n = ball_count;
   const VkDeviceSize of_triangles = VkDeviceSize{triangle_count} * sizeof(gpu::vec4);
-  for (const Wanted& wanted :
-       {Wanted{of_vertices, "vertices that move", &vertices},
-        Wanted{4 * of_triangles, "triangles that move", &triangles},
-        Wanted{of_triangles, "bounds of triangles that move", &bounds},
-        Wanted{(gpu::kFollowLists + 3 * n) * 4, "lists of balls", &lists},
-        Wanted{n * sizeof(gpu::FollowState), "states of balls", &states},
-        Wanted{n * sizeof(gpu::FollowedBall), "followed balls", &found}, Wanted{n * 4, "sides of balls", &sides},
-        Wanted{(gpu::kUnresolvedFirst + n) * 4, "unresolved balls", &unresolved},
-        Wanted{n * sizeof(RecordedBall), "balls", &balls}, Wanted{n * 4, "states for the host", &ball_states}}) {
+  const std::array all = {Wanted{of_vertices, "vertices that move", &vertices},
+                          Wanted{4 * of_triangles, "triangles that move", &triangles},
+                          Wanted{of_triangles, "bounds of triangles that move", &bounds},
+                          Wanted{(gpu::kFollowLists + 3 * n) * 4, "lists of balls", &lists},
+                          Wanted{n * sizeof(gpu::FollowState), "states of balls", &states},
+                          Wanted{n * sizeof(gpu::FollowedBall), "followed balls", &found},
+                          Wanted{n * 4, "sides of balls", &sides},
+                          Wanted{(gpu::kUnresolvedFirst + n) * 4, "unresolved balls", &unresolved},
+                          Wanted{n * sizeof(RecordedBall), "balls", &balls},
+                          Wanted{n * 4, "states for the host", &ball_states}};
+  for (const Wanted& wanted : all) {
     Status status = make(wanted.bytes, wanted.purpose, *wanted.buffer, MemoryKind::kDevice);
     if (!status) return status;
   }

@@ -16,8 +16,7 @@ using SiteJson = nlohmann::ordered_json;
 /// Written row by row: a document in memory would be many times the file.
 class SiteJsonText {
  public:
-  explicit SiteJsonText(const SiteJson& head) {
-    out_ = head.dump(2, ' ', false, SiteJson::error_handler_t::replace);
+  explicit SiteJsonText(const SiteJson& head) : out_(head.dump(2, ' ', false, SiteJson::error_handler_t::replace)) {
     out_.resize(out_.size() - 2);  // without the end of the object
   }
 
