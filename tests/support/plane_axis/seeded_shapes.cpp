@@ -73,10 +73,12 @@ class SeededRings {
   std::vector<PlaneRing> holes() {
     const int side = 2 + below(2);
     std::vector<PlaneRing> rings = {rectangle(0, 0, side * kUnit, side * kUnit)};
-    for (int i = 0; i < side * side; ++i) {
-      const int corners = 3 + below(6);
-      const double turn = 6 * share(), radius = (0.1 + 0.38 * share()) * kUnit;
-      rings.push_back(regular(corners, (i % side + 0.5) * kUnit, (i / side + 0.5) * kUnit, radius, turn));
+    for (int row = 0; row < side; ++row) {
+      for (int column = 0; column < side; ++column) {
+        const int corners = 3 + below(6);
+        const double turn = 6 * share(), radius = (0.1 + 0.38 * share()) * kUnit;
+        rings.push_back(regular(corners, (column + 0.5) * kUnit, (row + 0.5) * kUnit, radius, turn));
+      }
     }
     return rings;
   }

@@ -36,7 +36,7 @@ struct Cell {
 
 class CellTree {
  public:
-  static constexpr std::size_t kLeafSites = 10;
+  static constexpr std::size_t kLeafSites = 8;
 
   /// Throws std::bad_alloc and LoopStopped.
   static CellTree build(const SiteSet& sites, const DiagramQuery& query, const LoopWatch& watch);

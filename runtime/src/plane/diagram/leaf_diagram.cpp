@@ -194,7 +194,7 @@ void LeafDiagram::add_vertex(const Circle& circle, DiagramParts& parts) {
 void LeafDiagram::add_pair(Contact a, Contact b, DiagramParts& parts) const {
   if (!can_pair(sites_, query_.wanted, a, b)) return;
   const std::optional<Bisector> curve = bisector_of(sites_, a, b);
-  if (curve && curve->reach(query_.least_angle(kFar)) >= 0) parts.pairs.push_back({std::min(a, b), std::max(a, b)});
+  if (curve && curve->has_angle(query_.least_angle(kFar))) parts.pairs.push_back({std::min(a, b), std::max(a, b)});
 }
 
 /// An edge of the diagram ends at vertices. One without a vertex in the cell crosses its border.
@@ -205,7 +205,7 @@ void LeafDiagram::find_crossing_pairs(const Cell& cell, DiagramParts& parts) {
       const Contact a = all[i], b = all[static_cast<std::size_t>(std::countr_zero(later))];
       if (!can_pair(sites_, query_.wanted, a, b)) continue;
       const std::optional<Bisector> curve = bisector_of(sites_, a, b);
-      if (!curve || curve->reach(query_.least_angle(kFar)) < 0) continue;
+      if (!curve || !curve->has_angle(query_.least_angle(kFar))) continue;
       if (is_crossed(cell, a, b, *curve)) parts.pairs.push_back({std::min(a, b), std::max(a, b)});
     }
   }

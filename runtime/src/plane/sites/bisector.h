@@ -31,6 +31,8 @@ class Bisector {
   double parameter_of(Vec2 x) const { return dot(along_, x - origin_); }
   /// The object angle is at least `angle` where |t| is at most this; negative: nowhere.
   double reach(double angle) const;
+  /// Whether it is so anywhere.
+  bool has_angle(double angle) const { return kind_ != Kind::kOfSegments || angle_ >= angle; }
   /// The parameters at which the curve crosses the line `normal` x = `value`, up to two.
   struct Crossings {
     std::array<double, 2> t = {};

@@ -57,23 +57,6 @@ void SiteSet::build_fans() {
   }
 }
 
-bool SiteSet::are_joined(std::uint32_t a, std::uint32_t b) const {
-  const auto ends_at = [&](std::uint32_t s, std::uint32_t p) {
-    return !is_point(s) && is_point(p) && (segment(s).ends[0] == p || segment(s).ends[1] == p);
-  };
-  return ends_at(a, b) || ends_at(b, a);
-}
-
-double SiteSet::distance_to(std::uint32_t site, Vec2 x) const {
-  if (is_point(site)) return plane::distance(points_[site], x);
-  const Segment& s = segment(site);
-  const Vec2 from = x - s.begin;
-  const double position = dot(s.along, from);
-  if (position <= 0) return plane::length(from);
-  if (position >= s.length) return plane::distance(points_[s.ends[1]], x);
-  return std::fabs(cross(s.along, from));
-}
-
 Vec2 SiteSet::foot(std::uint32_t site, Vec2 x) const {
   if (is_point(site)) return points_[site];
   const Segment& s = segment(site);

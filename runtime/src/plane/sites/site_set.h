@@ -3,7 +3,9 @@
 // behind the ends of its segments (docs/theory.md, "In the plane").
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -49,10 +51,22 @@ class SiteSet {
     return is_point(site) ? owners_of_points_[site] : segment(site).owner;
   }
   /// Whether one is an end of the other.
-  bool are_joined(std::uint32_t a, std::uint32_t b) const;
+  bool are_joined(std::uint32_t a, std::uint32_t b) const {
+    if (is_point(a) == is_point(b)) return false;
+    const auto& ends = segment(std::max(a, b)).ends;
+    return ends[0] == std::min(a, b) || ends[1] == std::min(a, b);
+  }
 
   /// From a point of space to a site; a segment counts with its ends.
-  double distance_to(std::uint32_t site, Vec2 x) const;
+  double distance_to(std::uint32_t site, Vec2 x) const {
+    if (is_point(site)) return plane::distance(points_[site], x);
+    const Segment& s = segment(site);
+    const Vec2 from = x - s.begin;
+    const double position = dot(s.along, from);
+    if (position <= 0) return plane::length(from);
+    if (position >= s.length) return plane::distance(points_[s.ends[1]], x);
+    return std::fabs(cross(s.along, from));
+  }
   /// The nearest point of it.
   Vec2 foot(std::uint32_t site, Vec2 x) const;
   /// By how much x lies outside of the region where the site can be nearest, at most 0 within.
