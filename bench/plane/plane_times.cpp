@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <functional>
 #include <numbers>
 #include <random>
@@ -55,6 +56,20 @@ std::vector<PlaneRing> comb(int segments) {
   return {ring};
 }
 
+/// The same, turned, so that no segment is along an axis.
+std::vector<PlaneRing> turned_comb(int segments) {
+  std::vector<PlaneRing> rings = comb(segments);
+  const double cosine = std::cos(0.6), sine = std::sin(0.6);
+  for (PlanePoint& p : rings[0]) p = {cosine * p[0] - sine * p[1], sine * p[0] + cosine * p[1]};
+  return rings;
+}
+
+std::vector<PlaneRing> regular_polygon(int segments) {
+  PlaneRing ring;
+  for (int i = 0; i < segments; ++i) ring.push_back(on_circle(0.4, 2 * kPi * i / segments));
+  return {ring};
+}
+
 std::vector<PlaneRing> spiral(int segments) {
   const int half = segments / 2;
   const auto at = [&](int i, double width) {
@@ -92,6 +107,13 @@ double seconds_of(const std::function<void()>& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
+/// Of the processors, on all threads of this program.
+double processor_seconds_of(const std::function<void()>& work) {
+  const std::clock_t begin = std::clock();
+  work();
+  return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+}
+
 double median(std::vector<double> values) {
   std::ranges::sort(values);
   return values[values.size() / 2];
@@ -106,7 +128,7 @@ struct Settings {
 
 /// Medians over rounds in which all take their turn.
 bool print_row(const std::string& name, const std::vector<PlaneRing>& rings, const Settings& settings) {
-  std::vector<double> prepare, find, boost, cgal;
+  std::vector<double> prepare, find, find_processor, boost, cgal;
   std::size_t segments = 0, branches = 0;
   for (int i = 0; i < settings.repeats; ++i) {
     Result<PreparedShape> shape = Error{};
@@ -116,7 +138,8 @@ bool print_row(const std::string& name, const std::vector<PlaneRing>& rings, con
     options.object_angle = settings.object_angle;
     options.threads = settings.threads;
     Result<PlaneAxis> axis = Error{};
-    find.push_back(seconds_of([&] { axis = find_plane_axis(shape.value(), options); }));
+    find_processor.push_back(processor_seconds_of(
+        [&] { find.push_back(seconds_of([&] { axis = find_plane_axis(shape.value(), options); })); }));
     if (!axis) return fmt::print(stderr, "{}: {}\n", name, axis.error().message), false;
     std::size_t found = 0;
     boost.push_back(seconds_of([&] { found = boost_voronoi(shape.value()); }));
@@ -127,8 +150,8 @@ bool print_row(const std::string& name, const std::vector<PlaneRing>& rings, con
     branches = axis.value().branches.size();
   }
   const auto shown = [](double seconds) { return seconds == 0 ? std::string("–") : fmt::format("{:.2f}", seconds); };
-  fmt::print("| {} | {} | {} | {:.2f} | {:.2f} | {} | {} |\n", name, segments, branches, median(prepare), median(find),
-             shown(median(boost)), shown(median(cgal)));
+  fmt::print("| {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {} | {} |\n", name, segments, branches, median(prepare),
+             median(find), median(find_processor), shown(median(boost)), shown(median(cgal)));
   std::fflush(stdout);
   return true;
 }
@@ -142,10 +165,11 @@ int run(int count, char** arguments) {
   app.add_option("--object-angle", settings.object_angle, "radians");
   CLI11_PARSE(app, count, arguments);
   fmt::print(
-      "| shape | segments | branches | prepare, s | axis, s | Boost.Polygon, s | CGAL, s |\n"
-      "|---|---|---|---|---|---|---|\n");
+      "| shape | segments | branches | prepare, s | axis, s | of the processors, s | Boost.Polygon, s | CGAL, s |\n"
+      "|---|---|---|---|---|---|---|---|\n");
   const std::vector<std::pair<const char*, std::vector<PlaneRing> (*)(int)>> shapes = {
-      {"square holes", holes}, {"comb", comb}, {"spiral", spiral}, {"leaf", leaf}, {"noise", noise}};
+      {"square holes", holes}, {"comb", comb},   {"turned comb", turned_comb},        {"spiral", spiral},
+      {"leaf", leaf},          {"noise", noise}, {"regular polygon", regular_polygon}};
   for (const auto& [name, make] : shapes) {
     for (const int size : settings.sizes) {
       if (!print_row(name, make(size), settings)) return 1;
