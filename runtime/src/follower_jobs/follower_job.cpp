@@ -158,9 +158,8 @@ Status FollowerJob::Impl::make_buffers() {
                           Wanted{(gpu::kUnresolvedFirst + n) * 4, "unresolved balls", &unresolved},
                           Wanted{n * sizeof(RecordedBall), "balls", &balls},
                           Wanted{n * 4, "states for the host", &ball_states}};
-  for (const Wanted& wanted : all) {
-    Status status = make(wanted.bytes, wanted.purpose, *wanted.buffer, MemoryKind::kDevice);
-    if (!status) return status;
+  for (const auto& [bytes, purpose, buffer] : all) {
+    if (Status status = make(bytes, purpose, *buffer, MemoryKind::kDevice); !status) return status;
   }
   frames.resize(options.frames);
   for (Frame& frame : frames) {
