@@ -95,7 +95,7 @@ Result<PlaneSites> load_plane_sites(const VoronoiCommandOptions& options, PlaneR
     Result<PreparedShape> shape = prepare_shape(read.value().rings, read.value().fill_rule, options.threads);
     if (!shape) return Error{shape.error().code, fmt::format("{}: {}", file, shape.error().message)};
     for (const auto* const assumptions : {&read.value().assumptions, &shape.value().report.assumptions}) {
-      for (const std::string& text : *assumptions) record.assumptions.push_back(file + ": " + text);
+      for (const std::string& text : *assumptions) record.assumptions.push_back(fmt::format("{}: {}", file, text));
     }
     record.sites.push_back(std::filesystem::path(file).stem().string());
     record.input += (is_first ? "" : ", ") + file;
