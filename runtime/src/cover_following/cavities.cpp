@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <iterator>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "base/point_ops.h"
@@ -45,16 +44,10 @@ void CavitySearch::find_points(const MovingSurface& surface, WorkerPool& pool) {
   }
 }
 
-std::uint32_t CavitySearch::root_of(std::uint32_t i) {
-  while (roots_[i] != i) i = roots_[i] = roots_[roots_[i]];
-  return i;
-}
-
 /// Groups in the order of their least points, and points of a group in their order.
 void CavitySearch::group_points(Joined joined) {
   const auto count = static_cast<std::uint32_t>(inside_.size());
-  roots_.resize(count);
-  std::iota(roots_.begin(), roots_.end(), 0u);
+  groups_.reset(count);
   keys_.clear();
   for (std::uint32_t i = 0; i < count; ++i) {
     const auto& [a, b, c] = inside_[i].balls;
@@ -68,11 +61,10 @@ void CavitySearch::group_points(Joined joined) {
   std::ranges::sort(keys_, {}, [](const Key& key) { return std::pair(key.balls, key.vertex); });
   for (std::size_t k = 1; k < keys_.size(); ++k) {
     if (keys_[k - 1].balls != keys_[k].balls) continue;
-    const std::uint32_t a = root_of(keys_[k - 1].vertex), b = root_of(keys_[k].vertex);
-    roots_[std::max(a, b)] = std::min(a, b);
+    groups_.join(keys_[k - 1].vertex, keys_[k].vertex);
   }
   grouped_.clear();
-  for (std::uint32_t i = 0; i < count; ++i) grouped_.push_back({root_of(i), i});
+  for (std::uint32_t i = 0; i < count; ++i) grouped_.push_back({groups_.of(i), i});
   std::ranges::sort(grouped_, {}, [](const Grouped& grouped) { return std::pair(grouped.group, grouped.vertex); });
   by_group_.clear();
   for (const Grouped& grouped : grouped_) by_group_.push_back(points_[grouped.vertex]);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ball_unions/unions/union_measurer.h"
+#include "base/disjoint_sets.h"
 #include "following/surface/moving_surface.h"
 #include "medial_vk/ball.h"
 #include "medial_vk/result.h"
@@ -40,7 +41,6 @@ class CavitySearch {
 
   void find_points(const MovingSurface& surface, WorkerPool& pool);
   void group_points(Joined joined);
-  std::uint32_t root_of(std::uint32_t i);
   bool fill_one(Cavity cavity, double least_radius, std::vector<Ball>& balls);
 
   UnionMeasurer measurer_;
@@ -49,7 +49,7 @@ class CavitySearch {
   std::vector<double> errors_;           // by vertex of the envelope; negative: not in the solid
   std::vector<EnvelopeVertex> inside_;   // the others
   std::vector<Ball> points_, by_group_;  // the same with their errors; the groups one after the other
-  std::vector<std::uint32_t> roots_;     // of these, the least of the group, or one of the same group
+  DisjointSets groups_;                  // of these
   std::vector<Key> keys_;
   std::vector<Grouped> grouped_;
   std::vector<Point> centres_;

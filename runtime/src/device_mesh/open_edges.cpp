@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <map>
 
-#include "base/connected_vertices.h"
+#include "base/disjoint_sets.h"
 #include "base/point_ops.h"
 
 namespace medial_vk {

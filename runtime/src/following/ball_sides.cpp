@@ -20,7 +20,7 @@ bool overlap(const Ball& a, const Ball& b) {
 
 Result<BallSides> BallSides::build(std::span<const Ball> rest, unsigned threads) {
   BallSides sides;
-  sides.parents_.resize(rest.size());
+  sides.components_.reset(rest.size());
   sides.largest_.resize(rest.size());
   sides.sides_.resize(rest.size());
   Result<BallUnion> ball_union = measure_ball_union(rest, BallUnionOptions{threads, true});
@@ -35,19 +35,14 @@ void BallSides::renew(std::uint32_t ball, std::span<const std::uint32_t> others)
   for (const std::uint32_t other : others) edges_.push_back({ball, other});
 }
 
-std::uint32_t BallSides::root(std::uint32_t ball) {
-  while (parents_[ball] != ball) ball = parents_[ball] = parents_[parents_[ball]];
-  return ball;
-}
-
 void BallSides::connect(std::span<const Ball> balls) {
-  std::iota(parents_.begin(), parents_.end(), 0u);
+  components_.reset(balls.size());
   for (const auto& [a, b] : edges_) {
-    if (overlap(balls[a], balls[b])) parents_[root(a)] = root(b);
+    if (overlap(balls[a], balls[b])) components_.join(a, b);
   }
-  largest_ = parents_;
+  std::iota(largest_.begin(), largest_.end(), 0u);
   for (std::uint32_t i = 0; i < balls.size(); ++i) {
-    std::uint32_t& largest = largest_[root(i)];
+    std::uint32_t& largest = largest_[components_.of(i)];
     if (balls[i].radius > balls[largest].radius) largest = i;
   }
 }
@@ -63,13 +58,13 @@ void BallSides::find(const MovingSurface& surface, std::span<const Ball> balls, 
   }
   connect(balls);
   for (std::uint32_t i = 0; i < balls.size(); ++i) {
-    if (parents_[i] != i) continue;
+    if (components_.of(i) != i) continue;
     const Ball& largest = balls[largest_[i]];
     sides_[i] = largest.radius > 0 && surface.contains(largest.centre) ? 1 : 0;
     queries_ += largest.radius > 0 ? 1 : 0;
   }
   for (std::uint32_t i = 0; i < balls.size(); ++i) {
-    is_inside[i] = balls[i].radius > 0 && sides_[root(i)] != 0 ? 1 : 0;
+    is_inside[i] = balls[i].radius > 0 && sides_[components_.of(i)] != 0 ? 1 : 0;
   }
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/disjoint_sets.h"
 #include "following/surface/moving_surface.h"
 #include "medial_vk/ball.h"
 
@@ -24,7 +25,7 @@ class BallSides {
 
   /// So that renew() allocates nothing, as long as all balls together have no more than 64 others each. Throws
   /// std::bad_alloc.
-  void make_room() { edges_.reserve(std::max(kUsualOthers * parents_.size(), 2 * rest_edges_.size())); }
+  void make_room() { edges_.reserve(std::max(kUsualOthers * largest_.size(), 2 * rest_edges_.size())); }
   /// From now on this ball is expected to overlap these others, and no longer those before.
   void renew(std::uint32_t ball, std::span<const std::uint32_t> others);
   /// Expects what build() found.
@@ -38,13 +39,12 @@ class BallSides {
 
  private:
   static constexpr std::size_t kUsualOthers = 64;
-  std::uint32_t root(std::uint32_t ball);
   void connect(std::span<const Ball> balls);
 
   std::vector<std::array<std::uint32_t, 2>> edges_, rest_edges_;
-  std::vector<std::uint32_t> parents_;
-  std::vector<std::uint32_t> largest_;  // by root: the largest ball of the component
-  std::vector<std::uint8_t> sides_;     // by root
+  DisjointSets components_;
+  std::vector<std::uint32_t> largest_;  // by component: its largest ball
+  std::vector<std::uint8_t> sides_;     // by component
   std::size_t queries_ = 0;
 };
 

@@ -7,30 +7,11 @@
 #include <queue>
 #include <utility>
 
+#include "base/disjoint_sets.h"
 #include "medial_mesh/surface_complex.h"
 
 namespace medial_vk {
 namespace {
-
-/// Sets of tetrahedra, by union-find with halved paths.
-class Sets {
- public:
-  explicit Sets(std::size_t size) : parents_(size) { std::iota(parents_.begin(), parents_.end(), 0u); }
-  /// False: they were in one set already.
-  bool join(std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    parents_[a] = b;
-    return a != b;
-  }
-
- private:
-  std::uint32_t root(std::uint32_t x) {
-    while (parents_[x] != x) x = parents_[x] = parents_[parents_[x]];
-    return x;
-  }
-  std::vector<std::uint32_t> parents_;
-};
 
 /// By triangle: the tetrahedra at it, where the number of tetrahedra denotes the outside.
 std::vector<std::array<std::uint32_t, 2>> tetrahedra_at_triangles(const DualComplex& complex) {
@@ -63,7 +44,7 @@ std::vector<bool> faces_that_go(const DualComplex& complex, const CollapseRule& 
     return s < t;
   });
   const std::vector<std::array<std::uint32_t, 2>> at = tetrahedra_at_triangles(complex);
-  Sets sets(complex.tetrahedra.size() + 1);
+  DisjointSets sets(complex.tetrahedra.size() + 1);
   std::vector<bool> gone(complex.triangles.size());
   for (const std::uint32_t t : order) gone[t] = at[t][0] != at[t][1] && sets.join(at[t][0], at[t][1]);
   return gone;

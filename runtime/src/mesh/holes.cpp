@@ -3,7 +3,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "base/connected_vertices.h"
+#include "base/disjoint_sets.h"
 #include "base/point_ops.h"
 #include "mesh/mesh_topology.h"
 

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/disjoint_sets.h"
 #include "base/point_ops.h"
 
 namespace medial_vk {
@@ -16,9 +17,8 @@ class FanCounter {
 
   std::uint32_t count(std::uint32_t vertex, std::span<const std::uint32_t> around) {
     sides_.clear();
-    group_.resize(around.size());
+    groups_.reset(around.size());
     for (std::uint32_t i = 0; i < around.size(); ++i) {
-      group_[i] = i;
       const Triangle& t = mesh_.triangles[around[i]];
       for (int k = 0; k < 3; ++k) {
         if (t[k] == vertex || t[(k + 1) % 3] == vertex) sides_.emplace_back(topology_.edge_of(around[i], k), i);
@@ -28,24 +28,16 @@ class FanCounter {
     auto groups = static_cast<std::uint32_t>(around.size());
     for (std::size_t i = 1; i < sides_.size(); ++i) {
       if (sides_[i].first != sides_[i - 1].first) continue;
-      const std::uint32_t a = root(sides_[i].second), b = root(sides_[i - 1].second);
-      if (a == b) continue;
-      group_[a] = b;
-      --groups;
+      if (groups_.join(sides_[i].second, sides_[i - 1].second)) --groups;
     }
     return groups;
   }
 
  private:
-  std::uint32_t root(std::uint32_t i) {
-    while (group_[i] != i) i = group_[i] = group_[group_[i]];
-    return i;
-  }
-
   const Mesh& mesh_;
   const MeshTopology& topology_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> sides_;  // edge, position in `around`
-  std::vector<std::uint32_t> group_;                            // union-find
+  DisjointSets groups_;                                         // of these positions
 };
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "base/connected_vertices.h"
+#include "base/disjoint_sets.h"
 #include "base/format_text.h"
 #include "base/host_memory.h"
 #include "proximity/placement.h"

@@ -7,8 +7,8 @@
 #include <optional>
 #include <tuple>
 
+#include "base/disjoint_sets.h"
 #include "base/voxel_order.h"
-#include "site_voronoi/disjoint_sets.h"
 
 namespace medial_vk {
 namespace {

@@ -7,11 +7,11 @@
 #include <queue>
 #include <utility>
 
+#include "base/disjoint_sets.h"
 #include "base/host_memory.h"
 #include "base/loop_watch.h"
 #include "base/parallel.h"
 #include "base/voxel_order.h"
-#include "site_voronoi/disjoint_sets.h"
 #include "site_voronoi/grid_rounding.h"
 #include "site_voronoi/line_clearance.h"
 

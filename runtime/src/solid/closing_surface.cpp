@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/connected_vertices.h"
+#include "base/disjoint_sets.h"
 #include "base/point_ops.h"
 
 namespace medial_vk {

@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "base/connected_vertices.h"
+#include "base/disjoint_sets.h"
 #include "base/stopwatch.h"
 #include "medial_vk/indexed_mesh.h"
 #include "medial_vk/prepare.h"

@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "ball_unions/unions/simplex_lists.h"
+#include "base/disjoint_sets.h"
 #include "medial_vk/ball_union.h"
 
 namespace medial_vk {
@@ -22,47 +22,33 @@ void add_faces(const std::vector<std::array<std::uint32_t, N>>& simplices,
   if (faces.size() > known) sort_unique(faces);
 }
 
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t count) : parent_(count), sets_(count) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+/// Joins the vertices that edges connect. Returns the number of sets.
+std::size_t join_vertices(const DualComplex& complex, DisjointSets& sets) {
+  std::size_t count = complex.vertices.size();
+  sets.reset(count);
+  const auto place = [&](std::uint32_t vertex) {
+    return static_cast<std::uint32_t>(index_in(complex.vertices, vertex));
+  };
+  for (const auto& [a, b] : complex.edges) {
+    if (sets.join(place(a), place(b))) --count;
   }
-  std::size_t find(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  /// True if they were in different sets.
-  bool join(std::size_t a, std::size_t b) {
-    a = find(a);
-    b = find(b);
-    if (a == b) return false;
-    parent_[std::max(a, b)] = std::min(a, b);
-    --sets_;
-    return true;
-  }
-  std::size_t sets() const { return sets_; }
-
- private:
-  std::vector<std::size_t> parent_;
-  std::size_t sets_;
-};
-
-DisjointSets join_vertices(const DualComplex& complex) {
-  DisjointSets sets(complex.vertices.size());
-  for (const auto& [a, b] : complex.edges) sets.join(index_in(complex.vertices, a), index_in(complex.vertices, b));
-  return sets;
+  return count;
 }
 
 }  // namespace
 
-std::uint64_t count_components(const DualComplex& complex) { return join_vertices(complex).sets(); }
+std::uint64_t count_components(const DualComplex& complex) {
+  DisjointSets sets;
+  return join_vertices(complex, sets);
+}
 
 std::vector<std::uint32_t> number_components(const DualComplex& complex) {
-  DisjointSets sets = join_vertices(complex);
+  DisjointSets sets;
+  join_vertices(complex, sets);
   std::vector<std::uint32_t> number(complex.vertices.size());
   std::uint32_t next = 0;
-  for (std::size_t i = 0; i < number.size(); ++i) {
-    const std::size_t first = sets.find(i);  // the smallest index of the set
+  for (std::uint32_t i = 0; i < number.size(); ++i) {
+    const std::uint32_t first = sets.of(i);  // the smallest index of the set
     number[i] = first == i ? next++ : number[first];
   }
   return number;

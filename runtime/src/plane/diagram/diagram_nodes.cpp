@@ -100,20 +100,8 @@ void DiagramNodes::add_clusters(const CellTree& tree) {
   }
 }
 
-std::uint32_t DiagramNodes::root_of(std::uint32_t i) {
-  while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-  return i;
-}
-
-void DiagramNodes::join(std::uint32_t a, std::uint32_t b) {
-  a = root_of(a);
-  b = root_of(b);
-  parent_[std::max(a, b)] = std::min(a, b);
-}
-
 void DiagramNodes::merge(const CellTree& tree) {
-  parent_.resize(nodes_.size());
-  for (std::uint32_t i = 0; i < parent_.size(); ++i) parent_[i] = i;
+  same_.reset(nodes_.size());
   join_coincident();
   join_clusters(tree);
   keep_roots();
@@ -129,7 +117,8 @@ void DiagramNodes::join_coincident() {
   const auto join_near = [&](const GridKey& key, std::size_t from, std::int64_t x) {
     for (; from < keys.size() && keys[from].x == x && keys[from].y <= key.y + 1; ++from) {
       const Circle &a = nodes_[key.node].circle, &b = nodes_[keys[from].node].circle;
-      if (distance(a.centre, b.centre) <= merge_distance(std::max(a.radius, b.radius))) join(key.node, keys[from].node);
+      if (distance(a.centre, b.centre) <= merge_distance(std::max(a.radius, b.radius)))
+        same_.join(key.node, keys[from].node);
     }
   };
   for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -150,7 +139,7 @@ void DiagramNodes::join_near_clusters() {
     const Vec2 centre = nodes_[i].circle.centre;
     auto at = std::ranges::lower_bound(clusters, std::pair(centre.x - kNearCluster, std::uint32_t{0}));
     for (; at != clusters.end() && at->first <= centre.x + kNearCluster; ++at) {
-      if (distance(nodes_[at->second].circle.centre, centre) <= kNearCluster) join(i, at->second);
+      if (distance(nodes_[at->second].circle.centre, centre) <= kNearCluster) same_.join(i, at->second);
     }
   }
 }
@@ -162,7 +151,7 @@ void DiagramNodes::join_clusters(const CellTree& tree) {
   const auto join_at = [&](std::uint32_t node, Vec2 x) {
     const auto at = std::ranges::lower_bound(cluster_cells_, tree.node_at(x));
     if (at == cluster_cells_.end() || *at != tree.node_at(x)) return;
-    join(node, first_cluster_ + static_cast<std::uint32_t>(at - cluster_cells_.begin()));
+    same_.join(node, first_cluster_ + static_cast<std::uint32_t>(at - cluster_cells_.begin()));
   };
   for (std::uint32_t i = 0; i < cluster_cells_.size(); ++i) {
     const Cell cell = tree.cell(cluster_cells_[i]);
@@ -183,7 +172,7 @@ void DiagramNodes::keep_roots() {
   std::vector<std::uint32_t> place(nodes_.size());
   std::uint32_t count = 0;
   for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
-    const std::uint32_t root = root_of(i);
+    const std::uint32_t root = same_.of(i);
     place[i] = root == i ? count : place[root];  // roots come first
     if (root == i) nodes_[count++] = nodes_[i];
   }

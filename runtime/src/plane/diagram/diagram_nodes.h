@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/disjoint_sets.h"
 #include "plane/diagram/diagram.h"
 
 namespace medial_vk::plane {
@@ -32,8 +33,6 @@ class DiagramNodes {
   void join_coincident();
   void join_near_clusters();
   void join_clusters(const CellTree& tree);
-  std::uint32_t root_of(std::uint32_t i);
-  void join(std::uint32_t a, std::uint32_t b);
   void keep_roots();
   void join_contacts(const std::vector<std::uint32_t>& place, std::size_t count);
   void index_contacts();
@@ -45,7 +44,7 @@ class DiagramNodes {
   std::vector<DiagramNode> nodes_;
   std::vector<std::size_t> first_;  // of a node's contacts, and the end of the last
   std::vector<Contact> contacts_;
-  std::vector<std::uint32_t> parent_;
+  DisjointSets same_;
   std::vector<std::uint32_t> cluster_cells_;
   std::uint32_t first_cluster_ = 0;
   double clustered_ = 0;

@@ -4,6 +4,7 @@
 #include <span>
 #include <utility>
 
+#include "base/disjoint_sets.h"
 #include "plane/diagram/cell_tree.h"
 #include "plane/shapes/close_edges.h"
 #include "plane/shapes/orientation.h"
@@ -126,8 +127,7 @@ class Arranger {
     const SiteSet sites = sites_in_use();
     const Meetings meetings(sites, threads, watch);
     if (meetings.all().empty()) return false;
-    target_.resize(result_.points.size());
-    for (std::uint32_t i = 0; i < target_.size(); ++i) target_[i] = i;
+    merged_.reset(result_.points.size());
     cuts_.clear();
     const auto old_points = static_cast<std::uint32_t>(result_.points.size());
     for (const Meeting& m : meetings.all()) apply(sites, m);
@@ -180,17 +180,10 @@ class Arranger {
     return SiteSet(std::move(points), ends, {}, {});
   }
 
-  std::uint32_t root_of(std::uint32_t i) {
-    while (target_[i] != i) i = target_[i] = target_[target_[i]];
-    return i;
-  }
-
   void apply(const SiteSet& sites, const Meeting& m) {
     const std::uint32_t first_edge = sites.points();
     if (sites.is_point(m.first) && sites.is_point(m.second)) {
-      const std::uint32_t a = root_of(in_use_[m.first]), b = root_of(in_use_[m.second]);
-      target_[std::max(a, b)] = std::min(a, b);
-      result_.merged_points += a == b ? 0 : 1;
+      result_.merged_points += merged_.join(in_use_[m.first], in_use_[m.second]) ? 1 : 0;
     } else if (sites.is_point(m.first)) {
       const Segment& s = sites.segment(m.second);
       const double position = s.position(sites.point(m.first));
@@ -226,7 +219,7 @@ class Arranger {
     std::ranges::sort(cuts_);
     std::vector<CountedEdge> parts;
     std::size_t next = 0;
-    const auto at = [&](std::uint32_t point) { return point < old_points ? root_of(point) : point; };
+    const auto at = [&](std::uint32_t point) { return point < old_points ? merged_.of(point) : point; };
     for (std::uint32_t e = 0; e < result_.edges.size(); ++e) {
       const CountedEdge edge = result_.edges[e];
       std::uint32_t from = edge.ends[0];
@@ -243,6 +236,7 @@ class Arranger {
   const Frame& frame_;
   Arrangement result_;
   std::vector<std::uint32_t> target_;  // by point: the one that stands for it
+  DisjointSets merged_;                // of points
   std::vector<std::uint32_t> in_use_;  // by site: the point
   std::vector<Cut> cuts_;
 };
