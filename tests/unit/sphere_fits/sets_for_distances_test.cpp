@@ -149,6 +149,13 @@ TEST_F(SetsForDistances, ReachATipThatLittleComesNear) {
   EXPECT_LT(NearestBallTree(fit.levels.back()).nearest(tip).distance, 0.1 * kLength);
 }
 
+TEST_F(SetsForDistances, NoFitIsWithoutAGoal) {
+  const Result<SphereFit> fit = fit_spheres(test::indexed(shape_.mesh), SphereFitOptions{}, reference_extractor());
+  ASSERT_FALSE(fit.ok());
+  EXPECT_EQ(fit.error().code, ErrorCode::kUsage);
+  EXPECT_THAT(fit.error().message, HasSubstr("no goal"));
+}
+
 TEST_F(SetsForDistances, AreForACountAlone) {
   const std::vector<std::function<void(SphereFitOptions&)>> changes = {
       [](SphereFitOptions& options) { options.count = 0; },

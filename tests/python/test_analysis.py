@@ -1,0 +1,268 @@
+"""Medial spheres: the numbers of the tool, progress, interruption, plots and pages."""
+
+import os
+import signal
+import subprocess
+import tempfile
+import threading
+import time
+import unittest
+from pathlib import Path
+
+import numpy as np
+import shapes
+
+import medial_vk as mv
+
+TOOL = os.environ.get("MEDIAL_VK_TOOL", "")
+
+
+def write_obj(path, vertices, triangles):
+    lines = [f"v {x!r} {y!r} {z!r}\n" for x, y, z in vertices.tolist()]
+    lines += [f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in triangles.tolist()]
+    path.write_text("".join(lines))
+
+
+class Results(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.mesh = mv.Mesh(*shapes.torus())
+        cls.found = mv.analyse(cls.mesh, resolution=40, volumes=True, medial_mesh=True)
+
+    def test_spheres_of_a_torus(self):
+        spheres = self.found.spheres
+        ring = np.hypot(np.hypot(spheres.centres[:, 0], spheres.centres[:, 1]) - 1, spheres.centres[:, 2])
+        self.assertGreater(len(spheres), 100)
+        self.assertLess(ring.max(), 0.05)  # the polyhedron's medial axis is near the circle
+        self.assertLess(np.abs(spheres.radii - 0.4).max(), 0.05)
+        np.testing.assert_allclose(np.linalg.norm(spheres.spokes_a, axis=1), 1, atol=1e-6)
+        self.assertEqual(self.found.certificate.passed, len(spheres))
+
+    def test_fields_have_the_stated_shapes(self):
+        n = len(self.found)
+        spheres = self.found.spheres
+        self.assertEqual(spheres.centres.dtype, np.float64)
+        self.assertEqual(spheres.voxels.shape, (n, 3))
+        origin, side = self.found.grid.origin, self.found.grid.voxel_size
+        np.testing.assert_array_equal(np.floor((spheres.centres - origin) / side).astype(int), spheres.voxels)
+        self.assertAlmostEqual(self.found.significance.of_ball.sum(), 1)
+        self.assertEqual(self.found.significance.topology.tunnels, 1)
+        self.assertEqual(self.found.medial_mesh.topology.tunnels, 1)
+        self.assertEqual(int(self.found.sheets.points.sum()), n)
+        self.assertEqual(len(self.found.undecided), len(self.found.undecided.kinds))
+
+    def test_results_cannot_be_assigned(self):
+        with self.assertRaises(AttributeError):
+            self.found.spheres = None
+        self.assertIn("array of shape", repr(self.found))
+
+    def test_saved_files_read_back(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.found.save(os.path.join(folder, "a.npz"))
+            with np.load(os.path.join(folder, "a.npz")) as arrays:
+                np.testing.assert_array_equal(arrays["centre"], self.found.spheres.centres)
+            with self.assertRaisesRegex(mv.errors.UsageError, "extension"):
+                self.found.save(os.path.join(folder, "a.xyz"))
+
+    def test_page(self):
+        try:
+            page = self.found.page(title="a <torus>")
+        except mv.errors.UsageError as error:
+            self.skipTest(str(error))
+        self.assertTrue(page.html.lower().startswith(b"<!doctype html>"))
+        self.assertIn("srcdoc", page._repr_html_())
+        self.assertIn("medial spheres", self.found._repr_html_())
+
+    def test_plots(self):
+        try:
+            import matplotlib
+        except ImportError:
+            self.skipTest("no matplotlib")
+        matplotlib.use("Agg")
+        import matplotlib.pyplot as plt
+
+        for axes in (self.found.plot(), self.found.plot(colour="sheets"), self.found.balls.plot(mesh=self.mesh)):
+            axes.figure.canvas.draw()
+            plt.close(axes.figure)
+
+
+@unittest.skipUnless(TOOL, "MEDIAL_VK_TOOL names no tool")
+class AsTheTool(unittest.TestCase):
+    def test_same_bytes(self):
+        vertices, triangles = shapes.torus()
+        for options, arguments in (
+            ({}, []),
+            ({"mode": "thesis"}, ["--mode", "thesis"]),
+            ({"object_angle": 0.8, "radius": 0.02}, ["--object-angle", "0.8", "--radius", "0.02"]),
+            ({"simplify": True, "sheet_angle": 8.0}, ["--simplify", "--sheet-angle", "8"]),
+        ):
+            with self.subTest(options), tempfile.TemporaryDirectory() as folder:
+                path = Path(folder) / "torus.obj"
+                write_obj(path, vertices, triangles)
+                for name in ("tool.ply", "tool.csv"):
+                    command = [TOOL, str(path), "--resolution", "40", "--quiet", "-o", str(path.with_name(name)), *arguments]
+                    subprocess.run(command, check=True)
+                found = mv.analyse(mv.Mesh(vertices, triangles), resolution=40, **options)
+                for name in ("own.ply", "own.csv"):
+                    found.save(path.with_name(name))
+                    tool = path.with_name(name.replace("own", "tool"))
+                    self.assertEqual(path.with_name(name).read_bytes(), tool.read_bytes(), name)
+
+    def test_same_spheres(self):
+        vertices, triangles = shapes.torus()
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "torus.obj"
+            write_obj(path, vertices, triangles)
+            out = path.with_suffix(".csv")
+            subprocess.run([TOOL, "spheres", str(path), "--count", "16", "--quiet", "-o", str(out)], check=True)
+            rows = [line.split(",") for line in out.read_text().splitlines()[1:]]
+        fit = mv.fit_spheres(mv.Mesh(vertices, triangles), 16)
+        table = np.array([[float(x) for x in row[:4]] for row in rows])
+        np.testing.assert_array_equal(table, np.column_stack([fit.centres, fit.radii]))
+
+
+class Determinism(unittest.TestCase):
+    def test_threads_change_nothing(self):
+        mesh = mv.Mesh(*shapes.grid((1, 0.7, 0.3), 6))
+        one, two = (mv.analyse(mesh, resolution=30, threads=count) for count in (1, 3))
+        for name in ("centres", "radii", "spokes_a", "spokes_b", "sheets", "flux"):
+            np.testing.assert_array_equal(getattr(one.spheres, name), getattr(two.spheres, name))
+
+
+class Progress(unittest.TestCase):
+    def setUp(self):
+        self.mesh = mv.Mesh(*shapes.torus())
+
+    def test_stages_and_shares(self):
+        calls = []
+        mv.analyse(self.mesh, resolution=40, progress=lambda stage, done: calls.append((stage, done)))
+        self.assertIn("extract", {stage for stage, _ in calls})
+        self.assertTrue(all(0 <= done <= 1 for _, done in calls))
+
+    def test_an_exception_of_the_callback_ends_the_call_and_arrives(self):
+        class Enough(Exception):
+            pass
+
+        def fail(stage, done):
+            raise Enough(stage)
+
+        for _ in range(3):
+            with self.assertRaises(Enough) as raised:
+                mv.analyse(self.mesh, resolution=40, progress=fail)
+            self.assertEqual(raised.exception.args, ("extract",))
+        self.assertGreater(len(mv.analyse(self.mesh, resolution=20)), 0)  # the context is as before
+
+    def test_a_callback_that_cannot_be_called(self):
+        with self.assertRaisesRegex(mv.errors.UsageError, "progress"):
+            mv.analyse(self.mesh, resolution=20, progress=7)
+
+    def test_a_bar(self):
+        mv.analyse(self.mesh, resolution=20, progress=True)
+
+
+class Interruption(unittest.TestCase):
+    """Ctrl-C arrives as a signal; a call that takes many times as long as the delay must end with KeyboardInterrupt."""
+
+    def interrupted(self, work, delay=0.3):
+        timer = threading.Timer(delay, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        try:
+            with self.assertRaises(KeyboardInterrupt):
+                work()
+        finally:
+            timer.cancel()
+            timer.join()
+
+    def test_analysis(self):
+        mesh = mv.Mesh(*shapes.torus(around=200, across=100))
+        self.interrupted(lambda: mv.analyse(mesh, resolution=700))
+
+    def test_spheres(self):
+        mesh = mv.Mesh(*shapes.torus(around=200, across=100))
+        self.interrupted(lambda: mv.fit_spheres(mesh, 4000))
+
+    def test_work_that_cannot_be_stopped_is_abandoned(self):
+        rng = np.random.default_rng(1)
+        balls = rng.random((400_000, 4)) * [1, 1, 1, 0.02]
+        self.interrupted(lambda: mv.measure_union(balls, complex=True))
+        self.assertAlmostEqual(mv.measure_union([[0, 0, 0, 1.0]]).volume, 4 / 3 * np.pi)
+
+    def test_many_poses(self):
+        mesh = mv.Mesh(*shapes.torus(around=100, across=60))
+        body = mv.Body(mesh)
+        poses = np.tile(np.eye(4), (300_000, 1, 1))
+        poses[:, :3, 3] = np.random.default_rng(2).normal(scale=2, size=(len(poses), 3))
+        self.interrupted(lambda: mv.distances(body, body, poses))
+
+
+class Contexts(unittest.TestCase):
+    def test_threads_share_a_context(self):
+        mesh = mv.Mesh(*shapes.torus())
+        expected = mv.analyse(mesh, resolution=24).spheres.centres
+        results, failures = [], []
+
+        def work():
+            try:
+                results.append(mv.analyse(mesh, resolution=24).spheres.centres)
+            except BaseException as error:  # noqa: B902 - any failure of a thread is one of the test
+                failures.append(error)
+
+        threads = [threading.Thread(target=work) for _ in range(6)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(failures, [])
+        for centres in results:
+            np.testing.assert_array_equal(centres, expected)
+
+    def test_contexts_of_their_own(self):
+        mesh = mv.Mesh(*shapes.torus())
+        contexts = [mv.Context(threads=1) for _ in range(3)]
+        results = [None] * 3
+
+        def work(i):
+            results[i] = mv.analyse(mesh, resolution=24, context=contexts[i]).spheres.radii
+
+        threads = [threading.Thread(target=work, args=(i,)) for i in range(3)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        np.testing.assert_array_equal(results[0], results[1])
+        np.testing.assert_array_equal(results[0], results[2])
+
+    def test_no_device_of_that_name(self):
+        with self.assertRaisesRegex(mv.errors.NoDeviceError, "no such thing"):
+            mv.Context("no such thing")
+
+    @unittest.skipUnless(hasattr(os, "fork"), "no fork")
+    def test_a_forked_process_makes_its_own(self):
+        mesh = mv.Mesh(*shapes.box())
+        mine = mv.default_context()
+        child = os.fork()
+        if child == 0:
+            status = 1
+            try:
+                own = mv.default_context() is not mine
+                try:
+                    mv.analyse(mesh, resolution=10, context=mine)
+                except mv.errors.UsageError:
+                    status = 0 if own else 2
+            finally:
+                os._exit(status)
+        deadline = time.monotonic() + 120
+        while time.monotonic() < deadline:
+            pid, status = os.waitpid(child, os.WNOHANG)
+            if pid:
+                break
+            time.sleep(0.05)
+        else:
+            os.kill(child, signal.SIGKILL)
+            os.waitpid(child, 0)
+            self.fail("the forked process did not end")
+        self.assertEqual(os.waitstatus_to_exitcode(status), 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
