@@ -9,4 +9,6 @@ inline constexpr ErrorCode kCannotWrite{1000};  ///< A file that cannot be writt
 inline constexpr ErrorCode kCheckFailed{1001};  ///< Results that did not pass a check.
 inline constexpr ErrorCode kWallTooThin{1002};  ///< A wall or a gap that is thinner than demanded, or may be.
 
+inline constexpr ErrorCode kSomeFailed{1003};  ///< Some meshes of many that have no results.
+
 }  // namespace medial_vk

@@ -39,7 +39,7 @@ AnalysisOptions analysis_options(const Options& options) {
   out.sheets = options.sheets;
   out.sheets->areas = false;  // unless volumes are measured
   out.simplify = options.simplify;
-  out.volumes = !options.ball_volumes.empty() || !options.report.empty() || !options.html.empty();
+  out.volumes = options.volumes || !options.ball_volumes.empty() || !options.report.empty() || !options.html.empty();
   out.keep_volume = options.keep_volume;
   out.keep_topology = options.keep_topology;
   out.removal_orders = !options.sheet_curve.empty();

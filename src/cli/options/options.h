@@ -49,6 +49,7 @@ struct Options {
   SheetOptions sheets;
   double keep_volume = 0;  ///< Share of the volume that the kept sheets must have; 0: all are kept.
   bool keep_topology = false;
+  bool volumes = false;  ///< Of the union of the balls: measured even if no file needs it.
 
   Backend backend = Backend::kVulkan;
   std::string device;
