@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <string_view>
+#include <system_error>
 
 #include "output/page/page_parts.h"
 
@@ -30,7 +32,6 @@ constexpr struct {
     {BatchColumn::kTriangles, "triangles"}, {BatchColumn::kPoints, "medial points"},
     {BatchColumn::kSheets, "sheets"},       {BatchColumn::kGreatestRadius, "greatest radius"},
     {BatchColumn::kVolume, "volume"},       {BatchColumn::kBallsVolume, "volume of the balls"},
-    {BatchColumn::kSeconds, "seconds"},
 };
 
 /// In an attribute with double quotes.
@@ -52,6 +53,15 @@ std::string url_of(std::string_view path) {
   return out;
 }
 
+/// A number of the table with six digits; any other text as it is.
+std::string short_number(const std::string& text) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool is_whole = text.find_first_not_of("0123456789") == std::string::npos;
+  if (is_whole || error != std::errc() || end != text.data() + text.size()) return page::text_in_html(text);
+  return fmt::format("{:.6g}", number);
+}
+
 std::string card_html(const BatchCard& card) {
   const BatchRow& row = *card.row;
   const std::string name = page::text_in_html(row[BatchColumn::kName]);
@@ -65,7 +75,7 @@ std::string card_html(const BatchCard& card) {
   if (!row.is_done()) html += fmt::format("<p>{}</p>", page::text_in_html(row[BatchColumn::kError]));
   std::string numbers;
   for (const auto& [column, label] : kShownNumbers) {
-    if (!row[column].empty()) numbers += fmt::format("<dt>{}</dt><dd>{}</dd>", label, page::text_in_html(row[column]));
+    if (!row[column].empty()) numbers += fmt::format("<dt>{}</dt><dd>{}</dd>", label, short_number(row[column]));
   }
   if (!numbers.empty()) html += "<dl>" + numbers + "</dl>";
   return html + "</article>\n";

@@ -122,6 +122,7 @@ TEST(Messages, AUsageErrorPointsAtTheHelpOfItsCommand) {
     return testing::internal::GetCapturedStderr();
   };
   EXPECT_EQ(printed(Command::kExtract), "medial-vk: no\nTry medial-vk --help.\n");
+  EXPECT_EQ(printed(Command::kBatch), "medial-vk: no\nTry medial-vk batch --help.\n");
   EXPECT_EQ(printed(Command::kSpheres), "medial-vk: no\nTry medial-vk spheres --help.\n");
   EXPECT_EQ(printed(Command::kRobotSpheres), "medial-vk: no\nTry medial-vk spheres --help.\n");
   EXPECT_EQ(printed(Command::kDistance), "medial-vk: no\nTry medial-vk distance --help.\n");

@@ -11,6 +11,7 @@
 #include "cli/options/declarations.h"
 #include "cli/options/options_of_meshes.h"
 #include "cli/options/output_names.h"
+#include "output/medial_ply/medial_file.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -50,6 +51,8 @@ Status check_ending(const char* option, const std::string& ending) {
 Status take_endings(const std::string& format, Options& each) {
   if (Status status = check_ending("--format", format); !status) return status;
   each.output = fmt::format("{}{}{}", kMeshWord, each.mesh_spheres ? ".spheres" : ".medial", format);
+  if (const auto known = medial_format_of(each.output); !known)
+    return usage_error("--format: " + known.error().message);
   for (const FileKind& kind : kFileKinds) {
     std::string& file = each.*kind.file;
     if (file.empty()) continue;
