@@ -127,7 +127,7 @@ class BatchRun {
     row[BatchColumn::kState] = status ? kBatchDone : kBatchFailed;
     if (!status) take_failure(status.error(), row);
     if (Status appended = folder_.append(row); !appended) return appended;
-    tell(row);
+    tell(mesh, row);
     rows_.insert_or_assign(mesh.name, std::move(row));
     return {};
   }
@@ -141,10 +141,12 @@ class BatchRun {
     is_open_ = false;
   }
 
-  void tell(const BatchRow& row) {
+  void tell(const BatchMesh& mesh, const BatchRow& row) {
+    const std::string& error = row[BatchColumn::kError];
     if (!row.is_done()) {
       progress_.clear();
-      print_message(fmt::format("{}: {}\n", row[BatchColumn::kName], row[BatchColumn::kError]));
+      const bool has_name = error.starts_with(mesh.file);
+      print_message(fmt::format("{}{}{}\n", has_name ? "" : mesh.file, has_name ? "" : ": ", error));
     } else if (options_.each.verbose) {
       progress_.clear();
       print_message(fmt::format("{}: {} points, {} s\n", row[BatchColumn::kName], row[BatchColumn::kPoints],

@@ -354,7 +354,7 @@ Status MeshRun::draw() {
   look.least_angle = options_.extraction.object_angle;
   look.frame_points = record_.search.outside;
   DrawnPicture drawn = draw_picture(mesh_->prepared().mesh, analysis_.spheres, record_.grid.voxel_size, look,
-                                    record_.device ? &*record_.device : nullptr);
+                                    record_.device && !options_.draws_on_host ? &*record_.device : nullptr);
   return add_picture(drawn.picture, std::move(drawn.drawn_by), stopwatch);
 }
 

@@ -81,6 +81,7 @@ struct Options {
   bool strokes = false;                           ///< Principal directions in the picture of the boundary.
   PictureOptions look;                            ///< Of the picture; the page shares `up` of its view.
   ViewChoice view;                                ///< As given; `look` holds the resulting view.
+  bool draws_on_host = false;                     ///< The picture, whatever device computes.
   bool check = false;
 
   bool quiet = false;

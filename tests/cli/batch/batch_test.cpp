@@ -72,7 +72,8 @@ TEST_F(BatchTest, FailuresAreRecordedByNameAndEndNothing) {
   const ToolResult result = batch({"in", "-o", "out"});
   EXPECT_EQ(result.exit_code, 9);
   EXPECT_THAT(result.err, HasSubstr("3 of 5 meshes failed: out/batch.csv has the reasons"));
-  EXPECT_THAT(result.err, HasSubstr("b.obj: "));
+  EXPECT_THAT(result.err, testing::StartsWith("in/b.obj:4: "));
+  EXPECT_THAT(result.err, HasSubstr("\nin/c, \"c\".obj: "));
   EXPECT_THAT(states(), ElementsAre(Pair("a.obj", "done"), Pair("b.obj", "failed"), Pair("c, \"c\".obj", "failed"),
                                     Pair("d.ply", "failed"), Pair("e.obj", "done")));
   for (const BatchRow& row : rows()) EXPECT_EQ(row.is_done(), row[BatchColumn::kError].empty());
