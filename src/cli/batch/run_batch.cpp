@@ -31,7 +31,7 @@
 #include "common/tool_errors.h"
 #include "medial_vk/version.h"
 #include "output/atomic_files/atomic_file.h"
-#include "output/batch_files/batch_page.h"
+#include "output/batch_page/batch_page.h"
 
 namespace medial_vk::cli {
 namespace {

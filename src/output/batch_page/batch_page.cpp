@@ -1,4 +1,4 @@
-#include "output/batch_files/batch_page.h"
+#include "output/batch_page/batch_page.h"
 
 #include <fmt/format.h>
 
