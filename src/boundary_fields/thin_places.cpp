@@ -43,7 +43,8 @@ std::vector<ThinPlace> group_thin_places(std::span<const Point> points, std::spa
   std::vector<Bounds> intervals;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Bounds& interval = at_points[i].diameter;
-    if (interval.lower < range.lower || interval.upper >= range.upper) continue;
+    if (interval.upper < range.lower || interval.lower < range.lower * (1 - kThinShare)) continue;
+    if (interval.upper >= range.upper) continue;
     if (at_points[i].object_angle < object_angle) continue;
     thin.push_back(points[i]);
     centres.push_back(at_points[i].ball.centre);

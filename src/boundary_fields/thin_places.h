@@ -40,8 +40,9 @@ struct WallRecord {
 inline constexpr double kThinShare = 0.01;
 
 /// Groups the points in walls that are proved to be too thin, and not thinner than walls can be: with a ball of at
-/// least the object angle and an interval in the range. Each point stands for `area_of_point`; those whose balls have
-/// centres within three sides of a square of this area are in one place.
+/// least the object angle, an upper end in the range, and a lower end no more than kThinShare below it. Each point
+/// stands for `area_of_point`; those whose balls have centres within three sides of a square of this area are in one
+/// place.
 std::vector<ThinPlace> group_thin_places(std::span<const Point> points, std::span<const Thickness> at_points,
                                          double area_of_point, const Bounds& range, double object_angle);
 

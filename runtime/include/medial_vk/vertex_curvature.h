@@ -41,10 +41,11 @@ struct VertexCurvature {
   /// kKnown: both curvatures, from tips on all sides. kCut: both, from tips on one side, or from the ball at a rim or
   /// at the end of a curve; kVoronoi: by propagation. kCurve, kPoint: as for tips, from the ball that touches here.
   /// Unknown: kUncertain, where `error` would be above a quarter of the greater curvature, and of 0.1 / r of the ball;
-  /// kEdge, where the fitted normal is more than 0.35 radians off that of the mesh, or tips are on one side only and do
-  /// not go on towards the vertex. Where no tip is in reach, what is not known of the nearest ball: kSeam, kFew,
-  /// kNested, kFocal, kUncertain or kExposed; kEdge, if its curvatures are known. kFew, if there are no balls;
-  /// kVoronoi: where no tip is on the component of the mesh.
+  /// kEdge, at an edge of the mesh: the fitted normal is more than 0.35 radians off that of the mesh, or tips are on
+  /// one side only and do not go on towards the vertex, and a triangle at the vertex is as far off. Where none is, or
+  /// no tip is in reach, what is not known of the nearest ball: kSeam, kFew, kNested, kFocal, kUncertain or kExposed;
+  /// kEdge, if its curvatures are known. kFew, if there are no balls; kVoronoi: where no tip is on the component of the
+  /// mesh.
   CurvatureState state = CurvatureState::kFew;
   /// The outward unit normal of the smooth boundary; known wherever a curvature is. kVoronoi: that of the mesh.
   Point normal = {TipCurvature::kUnknown, TipCurvature::kUnknown, TipCurvature::kUnknown};

@@ -11,7 +11,7 @@ namespace medial_vk {
 namespace {
 
 // Below this object angle (radians) or share of its last radius, a ball is tried between both contacts, too.
-constexpr double kMedialAngle = 0.5;
+constexpr double kFlatAngle = 0.4;
 constexpr double kShrunk = 0.8;
 
 // By which a distance relative to the radius, and the cosine of the angle between the spokes, may have changed.
@@ -100,7 +100,7 @@ TrackedBall follow_tangent(const MovingSurface& surface, const TrackedBall& last
   // The direction at a contact within a face is the normal of that face.
   if (!a.on.is_within_face() && b.on.is_within_face()) std::swap(a, b);
   TrackedBall now = greatest_ball(surface, a, b.on);
-  if (now.object_angle() < kMedialAngle || now.ball.radius < kShrunk * last.ball.radius) {
+  if (now.object_angle() < kFlatAngle || now.ball.radius < kShrunk * last.ball.radius) {
     const TrackedBall between = ball_between(surface, a, b);
     if (between.ball.radius > now.ball.radius) now = between;
   }

@@ -86,7 +86,22 @@ void spokes_by_normals(std::span<const FacingTriangle> triangles, double roundin
   for (std::size_t i = 0; i < triangles.size(); ++i) caps.push_back(cap_at(triangles, i, rounding, meeting));
 }
 
-double least_radius_of_pairs(std::vector<PossibleContact>& contacts, double h, double theta, double known) {
+/// For contacts x and y with the spokes u and v: e (x - y) = r e (u - v) <= 2 r, whatever the unit vector e.
+double least_radius_by_heights(const PossibleContact& a, const PossibleContact& b, double rounding) {
+  double most = 0;
+  const auto try_along = [&](const Point& e) {
+    double least = std::numeric_limits<double>::infinity(), greatest = -least;
+    for (const Point& corner : a.corners) least = std::min(least, dot(e, corner));
+    for (const Point& corner : b.corners) greatest = std::max(greatest, dot(e, corner));
+    most = std::max(most, least - greatest);
+  };
+  if (!is_any(a.by_normals)) try_along(a.by_normals.axis);
+  if (!is_any(b.by_normals)) try_along(-1.0 * b.by_normals.axis);
+  return std::max(0.0, 0.5 * (most - 2 * rounding));
+}
+
+double least_radius_of_pairs(std::vector<PossibleContact>& contacts, double h, double theta, double known,
+                             double rounding) {
   std::erase_if(contacts, [](const PossibleContact& contact) {
     return turn_of(contact.by_position, contact.by_normals).lower > 0;
   });
@@ -101,7 +116,9 @@ double least_radius_of_pairs(std::vector<PossibleContact>& contacts, double h, d
       if (!(std::min(by_position.upper, by_normals.upper) >= 2 * theta)) continue;
       const double angle = std::max({theta, 0.5 * by_position.lower, 0.5 * by_normals.lower});
       const double d = std::sqrt(0.5 * (a.distance * a.distance + b.distance * b.distance)) * (1 - kBoundShare);
-      least = std::min(least, least_radius_around(d, h, angle));
+      const double around = least_radius_around(d, h, angle);
+      if (around >= least) continue;
+      least = std::min(least, std::max(around, least_radius_by_heights(a, b, rounding)));
       if (least <= known) return known;
     }
   }

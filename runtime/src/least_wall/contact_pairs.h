@@ -21,6 +21,8 @@ struct PossibleContact {
   SpokeCone by_position;  ///< The directions from the centres to the triangle or edge.
   SpokeCone by_normals;   ///< That of the triangle, or those of the triangles that may meet at the edge.
   double distance = 0;    ///< Of the triangle or edge from c, at least.
+  /// Of the triangle or edge, relative to c; an edge has one of them twice.
+  std::array<Point, 3> corners = {};
 };
 
 /// A triangle for spokes_by_normals().
@@ -38,8 +40,13 @@ double least_radius_around(double d, double h, double theta);
 void spokes_by_normals(std::span<const FacingTriangle> triangles, double rounding,
                        std::vector<const SpokeCone*>& meeting, std::vector<SpokeCone>& caps);
 
+/// Of a ball with both contacts, at least, by the heights of their corners along some directions. `rounding`: of these.
+double least_radius_by_heights(const PossibleContact& a, const PossibleContact& b, double rounding);
+
 /// A bound of the radius of balls with an object angle of theta or more and two of the contacts, if it is above
-/// `known`, or else `known`; infinite if no two are possible. Contacts that are not possible are removed.
-double least_radius_of_pairs(std::vector<PossibleContact>& contacts, double h, double theta, double known);
+/// `known`, or else `known`; infinite if no two are possible. Contacts that are not possible are removed. `rounding`:
+/// of heights of corners.
+double least_radius_of_pairs(std::vector<PossibleContact>& contacts, double h, double theta, double known,
+                             double rounding);
 
 }  // namespace medial_vk

@@ -37,18 +37,19 @@ class SpokeGroups {
  public:
   /// Groups the cones by their angle with the one of this index.
   PairsOfContacts divide(std::span<const SpokeCone> cones, std::size_t first, double theta);
-  /// Of the last call: 0 for the group of the first one, 1 for the other one.
+  /// Of the last call, if pairs are possible: 0 for the group of the first one, 1 for the other one.
   std::size_t group_of(std::size_t cone) const { return groups_[cone]; }
   /// Of a group that is not empty, if spokes are apart.
   const SpokeCone& cap(std::size_t group) const { return caps_[group]; }
 
  private:
-  SpokeCone cap_of(std::span<const SpokeCone> cones, std::size_t group) const;
-
-  static constexpr std::size_t kAll = 2;  // both groups
-
   std::vector<std::size_t> groups_;
+  std::array<std::vector<SpokeCone>, 2> members_;
   std::array<SpokeCone, 2> caps_;
 };
+
+/// A narrow cap that holds all cones. One of any directions if no cap does whose half-angle is below `limit`, at most a
+/// right angle; and one below `enough`, though not the narrowest, as soon as it is found.
+SpokeCone narrow_cap(std::span<const SpokeCone> cones, double limit, double enough = 0);
 
 }  // namespace medial_vk

@@ -25,7 +25,7 @@ constexpr std::size_t kMostTriangles = 400;
 constexpr std::size_t kMostPaired = 32, kMostPairedInSmall = 256;
 
 /// Otherwise a cell is too large for directions from its centres to the boundary to be known.
-bool has_directions(double distance, double h) { return h < 0.25 * distance; }
+bool has_directions(double distance, double h) { return h < 0.5 * distance; }
 
 }  // namespace
 
@@ -68,13 +68,19 @@ std::optional<WallCells::Start> WallCells::bound(WallCell& cell, double best) {
     cell.least = kInfinite;
     return std::nullopt;
   }
-  // A contact of a ball around m is no farther from c than d(m) + h <= d + 2 h. Beside the apex of a fan all cells are
-  // near all of its triangles.
+  // A contact of a ball around m is no farther from c than d(m) + h <= d + 2 h, and of a ball below the best radius no
+  // farther than that and h. Beside the apex of a fan all cells are near all of its triangles.
+  reach_ = std::min(d + 2 * h, best + h) + rounding_;
   const std::size_t most = cell.half <= field_.small ? near_.max_size() : kMostTriangles;
-  gather(cell.centre, d + 2 * h + rounding_, hit.triangle, most);
+  gather(cell.centre, reach_, hit.triangle, most);
   if (near_.size() > most) return std::nullopt;
-  const Known by_directions = pairs_by_directions(d, h), by_normals = pairs_by_normals();
-  if (!by_normals.are_possible || !by_directions.are_possible) {
+  if (near_.empty()) {
+    cell.least = kInfinite;
+    return std::nullopt;
+  }
+  const Known by_directions = pairs_by_directions(d, h);
+  const Known by_normals = by_directions.are_possible ? pairs_by_normals() : by_directions;
+  if (!by_normals.are_possible) {
     cell.least = kInfinite;
     return std::nullopt;
   }
@@ -163,7 +169,7 @@ void WallCells::bound_by_heights(Known& known) const {
 /// as the angle at q is right or greater, and so is one of an edge. From a centre m, |m - c| <= h, the direction to x
 /// differs by up to asin(h / d).
 SpokeCone WallCells::direction_to(const NearestOffset& offset, double distance, double h) const {
-  const double reach = (distance + 2 * h + rounding_) * (1 + kBoundShare), by_centre = std::asin(h / distance);
+  const double reach = reach_ * (1 + kBoundShare), by_centre = std::asin(h / distance);
   const double size = std::sqrt(offset.squared_distance);
   const double squared = offset.squared_distance * (1 - kBoundShare);
   // The foot on a thin triangle may be off by the square root of the product of its rounding and its length.
@@ -195,23 +201,23 @@ double WallCells::radius_by_pairs(const WallCell& cell, double distance, double 
   spokes_by_normals(facing_, rounding_, meeting_, cones_);
   contacts_.clear();
   edges_.clear();
-  const double reach = distance + 2 * h + rounding_;
-  const auto add = [&](const NearestOffset& offset, const SpokeCone& by_normals) {
+  const auto add = [&](const NearestOffset& offset, const SpokeCone& by_normals, const std::array<Point, 3>& corners) {
     const double size = std::sqrt(offset.squared_distance) - rounding_;
-    contacts_.push_back({direction_to(offset, distance, h), by_normals, std::max(0.0, size)});
+    contacts_.push_back({direction_to(offset, distance, h), by_normals, std::max(0.0, size), corners});
   };
   for (std::size_t i = 0; i < near_.size(); ++i) {
-    add(near_[i].offset, facing_[i].normal);
+    const std::array<Point, 3>& corners = facing_[i].corners;
+    add(near_[i].offset, facing_[i].normal, {corners[0] - c, corners[1] - c, corners[2] - c});
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto [a, b] = std::minmax(facing_[i].corners[k], facing_[i].corners[(k + 1) % 3]);
+      const auto [a, b] = std::minmax(corners[k], corners[(k + 1) % 3]);
       const NearestOffset offset = nearest_on_segment(a - c, b - a);
-      if (std::sqrt(offset.squared_distance) - rounding_ > reach) continue;
+      if (std::sqrt(offset.squared_distance) - rounding_ > reach_) continue;
       if (std::ranges::find(edges_, std::pair(a, b)) != edges_.end()) continue;
       edges_.emplace_back(a, b);
-      add(offset, cones_[i]);
+      add(offset, cones_[i], {a - c, b - c, b - c});
     }
   }
-  return least_radius_of_pairs(contacts_, h, field_.options.object_angle, known);
+  return least_radius_of_pairs(contacts_, h, field_.options.object_angle, known, rounding_);
 }
 
 std::optional<Point> WallCells::common_vertex() const {

@@ -34,7 +34,8 @@ struct WallField {
 struct WallCell {
   Point centre = {0, 0, 0};
   double half = 0;   // of its side
-  double least = 0;  // no medial ball with the object angle around a centre in it has a smaller radius
+  double least = 0;  // no medial ball with the object angle around a centre in it is smaller, unless it is no smaller
+                     // than the best one so far
   std::optional<Point> vertex = std::nullopt;  // of all triangles within reach of this cell, or of one that it is in
   std::uint64_t number = 0;
 
@@ -46,8 +47,8 @@ class WallCells {
  public:
   explicit WallCells(const WallField& field);
 
-  /// Raises the bound of the cell: infinite if there is no medial ball with the object angle in it. Looks for one below
-  /// the radius `best`, and returns it.
+  /// Raises the bound of the cell: infinite if there is no medial ball with the object angle in it below the radius
+  /// `best`. Looks for one, and returns it.
   std::optional<WallBall> examine(WallCell& cell, double best);
 
   /// Half the side of a cube around a vertex in which there is no medial ball with the object angle; 0: that is not
@@ -91,6 +92,7 @@ class WallCells {
   const WallField& field_;
   double toward_;  // 1: balls are on the inner side of triangles, -1: on the outer side
   double rounding_;
+  double reach_ = 0;  // from the centre of the cell, of contacts
   SpokeGroups groups_;
   std::vector<std::uint32_t> nearby_;
   std::vector<Near> near_;

@@ -80,11 +80,24 @@ class AlongSurface {
 
   VertexCurvature at(std::uint32_t vertex) {
     VertexCurvature out = measure(vertex);
-    if (out.state == CurvatureState::kFew) out.state = reasons_.at(surface_.mesh().vertices[vertex]);
+    const bool tells_why =
+        out.state == CurvatureState::kFew || (out.state == CurvatureState::kEdge && !is_at_edge(vertex));
+    if (tells_why) out.state = reasons_.at(surface_.mesh().vertices[vertex]);
     return out;
   }
 
  private:
+  /// Of the mesh: where it has none, normals disagree since tips nearby are not known.
+  bool is_at_edge(std::uint32_t vertex) const {
+    const Eigen::Vector3d normal = to_eigen(surface_.normal(vertex));
+    return std::ranges::any_of(surface_.triangles_at(vertex), [&](std::uint32_t triangle) {
+      const Triangle& t = surface_.mesh().triangles[triangle];
+      const std::span<const Point> vertices = surface_.mesh().vertices;
+      const Point across = cross(vertices[t[1]] - vertices[t[0]], vertices[t[2]] - vertices[t[0]]);
+      return angle_between(to_eigen(across), normal) >= kMostTurn;
+    });
+  }
+
   VertexCurvature measure(std::uint32_t vertex) {
     const Point& p = surface_.mesh().vertices[vertex];
     walk_.begin(vertex, kMostPath * spacing_);

@@ -4,7 +4,7 @@
 #define MEDIAL_VK_FOLLOWING_FIRST_BALL_GLSL
 
 const float kNoLongerRest = 0.001;    // a change of the radius and of the cosine between both directions
-const float kMedialTurn = 0.9193954;  // squared_turn() at an object angle of 0.5
+const float kFlatTurn = 0.6065866;  // squared_turn() at an object angle of 0.4
 const float kShrunkNow = 0.8;         // of the last radius
 
 // At rest, or after the last frame.
@@ -48,7 +48,7 @@ bool starts_from_rest(uint ball) {
 }
 
 bool is_too_small(TrackedBall now) {
-  return squared_turn(now) < kMedialTurn || now.ball.w < kShrunkNow * last_radius;
+  return squared_turn(now) < kFlatTurn || now.ball.w < kShrunkNow * last_radius;
 }
 
 // Stores the ball of the search, and whether others are to be tried.

@@ -66,7 +66,7 @@ class PlaceSearch {
     const double share = area_of(mesh_.prepared().mesh) / static_cast<double>(std::max<std::size_t>(points.size(), 1));
     const Bounds& least = record_.found.diameter;
     std::vector<ThinPlace> places =
-        group_thin_places(points, at_points.value(), share, {least_of_walls(), record_.demanded}, record_.object_angle);
+        group_thin_places(points, at_points.value(), share, {least.lower, record_.demanded}, record_.object_angle);
     how_.queries = ThicknessOptions().queries;
     if (Status status = refine(places); !status) return status.error();
     const bool is_known = std::ranges::any_of(places, [&](const ThinPlace& p) { return p.least.lower <= least.upper; });
@@ -83,7 +83,9 @@ class PlaceSearch {
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Bounds& diameter = at_points[i].diameter;
       const bool is_thick = diameter.lower >= record_.demanded * (1 - kThinShare);
-      const bool is_in_wall = diameter.lower >= least_of_walls() && at_points[i].object_angle >= record_.object_angle;
+      // Of a point whose interval begins below all walls the fine one tells whether it is in one.
+      const bool is_in_wall =
+          diameter.lower >= record_.found.diameter.lower && at_points[i].object_angle >= record_.object_angle;
       if (is_thick || (diameter.upper < record_.demanded && is_in_wall)) continue;
       open.push_back(points[i]);
       numbers.push_back(i);
@@ -93,9 +95,6 @@ class PlaceSearch {
     for (std::size_t i = 0; i < numbers.size(); ++i) at_points[numbers[i]] = found.value()[i];
     return {};
   }
-
-  /// Balls in walls are not smaller, but for the width of their intervals.
-  double least_of_walls() const { return record_.found.diameter.lower * (1 - kFineWidth); }
 
   /// Narrows the intervals that are shown, and those that may hold the thinnest ball.
   Status refine(std::span<ThinPlace> places) const {

@@ -39,6 +39,16 @@ TEST(ThinPlaces, AreGroupsOfPointsThatAreCloseToEachOther) {
   EXPECT_EQ(places[1].at, points[2]);
 }
 
+// With no wall below 0.3, a thickness below it is not that of a wall; an interval of a hundredth may begin below it.
+TEST(ThinPlaces, AreNotThinnerThanWalls) {
+  const std::vector<Point> points = {{0, 0, 0}, {20, 0, 0}, {40, 0, 0}};
+  const std::vector<Thickness> at_points = {in_a_wall(0.298, 0.299, points[0]), in_a_wall(0.298, 0.301, points[1]),
+                                            in_a_wall(0.29, 0.31, points[2])};
+  const std::vector<ThinPlace> places = group_thin_places(points, at_points, 1, {0.3, 1}, 1.2);
+  ASSERT_EQ(places.size(), 1u);
+  EXPECT_EQ(places[0].at, points[1]);
+}
+
 TEST(ThinPlaces, NeedNotExist) { EXPECT_TRUE(group_thin_places({}, {}, 1, {0.3, 1}, 1.2).empty()); }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -69,7 +70,7 @@ TEST(ContactPairs, BoundNoBallAway) {
       contacts.push_back({random.cone_around(other), random.cone_around(other), radius * (1 + random.share())});
     }
     std::swap(contacts[random.number_to(contacts.size() - 1)], contacts.front());
-    const double bound = least_radius_of_pairs(contacts, h, kTheta, 0);
+    const double bound = least_radius_of_pairs(contacts, h, kTheta, 0, 0);
     EXPECT_LE(bound, radius * (1 + 1e-12)) << i;
     useful += bound > 0.9 * radius ? 1 : 0;
   }
@@ -86,9 +87,9 @@ std::vector<PossibleContact> contacts_along(const std::vector<Point>& spokes, do
 TEST(ContactPairs, AreNotPossibleAtASeamOfThreeSheets) {
   const double s = std::sqrt(0.75);
   std::vector<PossibleContact> contacts = contacts_along({{1, 0, 0}, {-0.5, s, 0}, {-0.5, -s, 0}}, 1);
-  EXPECT_EQ(least_radius_of_pairs(contacts, 0.01, kTheta, 0), std::numeric_limits<double>::infinity());
-  EXPECT_LT(least_radius_of_pairs(contacts, 0.01, 1.0, 0), 1);
-  EXPECT_EQ(least_radius_of_pairs(contacts, 0.01, 1.0, 0.999), 0.999);  // what is known
+  EXPECT_EQ(least_radius_of_pairs(contacts, 0.01, kTheta, 0, 0), std::numeric_limits<double>::infinity());
+  EXPECT_LT(least_radius_of_pairs(contacts, 0.01, 1.0, 0, 0), 1);
+  EXPECT_EQ(least_radius_of_pairs(contacts, 0.01, 1.0, 0.999, 0), 0.999);  // what is known
 }
 
 // The bound of a wall with parallel sides from beside its middle, with spokes that are known up to rounding.
@@ -97,16 +98,53 @@ TEST(ContactPairs, OfParallelSidesLoseTheSquareOfTheCell) {
   for (PossibleContact& contact : contacts) contact.by_normals.angle = 0;
   contacts[0].distance = 0.9;
   contacts[1].distance = 1.1;
-  const double bound = least_radius_of_pairs(contacts, 0.1, kTheta, 0);
+  const double bound = least_radius_of_pairs(contacts, 0.1, kTheta, 0, 0);
   // The mean of the squares is 1.01; half the rounding of angles stands for the cosine.
   EXPECT_NEAR(bound, std::sqrt(1.01 - 0.01), 0.1 * kAngleRounding);
+}
+
+// Where triangles are parallel, or an edge is parallel to a triangle, the bound is exact in a cell of any size.
+TEST(ContactPairs, OfParallelFacesLoseNothingByHeights) {
+  std::vector<PossibleContact> contacts = contacts_along({{0, 0, 1}, {0, 0, -1}}, 0.5);
+  contacts[0].corners = {Point{1, 0, 0.9}, {-1, 2, 0.9}, {-1, -2, 0.9}};
+  contacts[1].corners = {Point{3, 0, -1.1}, {-2, 3, -1.1}, {-1, -2, -1.1}};
+  EXPECT_NEAR(least_radius_of_pairs(contacts, 0.45, kTheta, 0, 0), 1, 1e-15);
+  EXPECT_NEAR(least_radius_of_pairs(contacts, 0.45, kTheta, 0, 0.125), 0.875, 1e-15);
+  // The edge's cap is that of a face beside it and another one.
+  contacts[1].corners = {Point{3, 1, -1.1}, {-2, 3, -1.1}, {-2, 3, -1.1}};
+  contacts[1].by_normals = {{std::sin(0.1), 0, -std::cos(0.1)}, 0.11};
+  EXPECT_NEAR(least_radius_of_pairs(contacts, 0.45, kTheta, 0, 0), 1, 1e-15);
+}
+
+// Balls that touch two triangles, which they do not cut: random ones through the contacts and across the spokes.
+TEST(ContactPairs, BoundNoBallAwayByHeights) {
+  RandomContacts random(6);
+  int useful = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const double radius = 0.2 + random.share();
+    const Point m = random.direction(), u = random.direction();
+    const double half_angle = kTheta + (0.5 * std::numbers::pi - kTheta) * random.share();
+    std::vector<PossibleContact> pair;
+    for (const Point& spoke : {u, turned_from(u, random.direction(), 2 * half_angle)}) {
+      const Point x = m + radius * spoke, along = turned_from(spoke, random.direction(), 0.5 * std::numbers::pi),
+                  across = cross(spoke, along);
+      const double size = random.share();
+      const std::array<Point, 3> corners = {x + size * along, x - size * along + size * across,
+                                            x - size * along - size * across};
+      pair.push_back({{spoke, 0}, {spoke, 0}, 0, corners});
+    }
+    const double bound = least_radius_by_heights(pair[0], pair[1], 0);
+    EXPECT_LE(bound, radius * (1 + 1e-12)) << i;
+    useful += bound > 0.9 * radius ? 1 : 0;
+  }
+  EXPECT_GT(useful, 1000);
 }
 
 // A triangle whose position and normal do not agree is not touched.
 TEST(ContactPairs, NeedPositionsAlongNormals) {
   std::vector<PossibleContact> contacts = contacts_along({{0, 0, 1}, {0, 0, -1}}, 1);
   contacts[1].by_normals.axis = {0, 0, 1};
-  EXPECT_EQ(least_radius_of_pairs(contacts, 0.01, kTheta, 0), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(least_radius_of_pairs(contacts, 0.01, kTheta, 0, 0), std::numeric_limits<double>::infinity());
 }
 
 bool holds(const SpokeCone& cap, const Point& direction) {

@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
+#include "output/colours/colour_map.h"
 #include "output/picture/boundary_picture.h"
 #include "support/solids/solids.h"
 
@@ -98,6 +100,35 @@ TEST(BoundaryPicture, ShowsTheColoursOfTheSurface) {
   const auto [grey_red, grey_green, grey_blue] = middle(kNotKnown, kNotKnown);
   EXPECT_EQ(grey_red, grey_green);
   EXPECT_EQ(grey_green, grey_blue);
+}
+
+/// How many pixels have exactly the colour.
+std::size_t count_pixels(const Picture& picture, const Vector3f& colour) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < picture.rgb.size(); i += 3) {
+    bool is_equal = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      is_equal = is_equal && picture.rgb[i + k] == picture::byte_of(colour[static_cast<Eigen::Index>(k)]);
+    }
+    count += is_equal ? 1 : 0;
+  }
+  return count;
+}
+
+/// A swatch has 7 x 7 pixels of the letters.
+TEST(BoundaryPicture, ALegendThatIsTooWideHasSeveralRows) {
+  const Mesh mesh = test::make_box({3, 2, 1});
+  const BoundaryFields fields = curved(mesh.vertices.size(), kNotKnown, kNotKnown);
+  for (const std::uint32_t width : {380u, 1200u}) {
+    PictureOptions options = small_view();
+    options.size = {width, 400};
+    for (const bool strokes : {false, true}) {
+      const Picture picture = draw_boundary(mesh, fields, BoundaryColour::kShape, strokes, options);
+      for (const auto& [colour, name] : colour_boundary(fields, BoundaryColour::kShape, 1).swatches) {
+        EXPECT_GE(count_pixels(picture, colour), 49u) << name << ", " << width;
+      }
+    }
+  }
 }
 
 std::size_t differing_pixels(const Picture& a, const Picture& b, std::uint32_t rows) {

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <set>
+#include <span>
 
 #include "output/picture/picture.h"
 #include "support/solids/solids.h"
@@ -96,6 +98,34 @@ TEST(PictureDraw, PanelsShareThePicture) {
     }
   }
   EXPECT_EQ(different, 0u);
+}
+
+/// Of the pixels at the sides of the picture.
+std::size_t different_at_sides(const Picture& a, const Picture& b) {
+  std::size_t count = 0;
+  for (std::size_t y = 0; y < a.height; ++y) {
+    const std::size_t step = y == 0 || y + 1 == a.height ? 1 : a.width - 1;
+    for (std::size_t x = 0; x < a.width; x += step) {
+      const auto at = static_cast<std::ptrdiff_t>(3 * (y * a.width + x));
+      count += std::equal(a.rgb.begin() + at, a.rgb.begin() + at + 3, b.rgb.begin() + at) ? 0 : 1;
+    }
+  }
+  return count;
+}
+
+TEST(PictureDraw, BallsOutsideAreInTheFrame) {
+  PictureOptions options = kSmall;
+  options.show = PictureShow::kBalls;
+  MedialSphere beside;
+  beside.centre = {5, 0.5, 1};
+  beside.radius = 3;
+  const Mesh box = test::make_box({2, 1, 2});
+  const Picture nothing = draw_picture({}, {}, 0.07, options);
+  EXPECT_GT(different_at_sides(draw_picture(box, std::span(&beside, 1), 0.07, options), nothing), 100u);
+  options.frame_points = true;
+  const Picture framed = draw_picture(box, std::span(&beside, 1), 0.07, options);
+  EXPECT_EQ(different_at_sides(framed, nothing), 0u);
+  EXPECT_GT(different_pixels(framed, nothing), 20000u);
 }
 
 TEST(PictureDraw, EveryViewIsDrawn) {

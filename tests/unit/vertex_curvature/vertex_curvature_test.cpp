@@ -243,6 +243,20 @@ TEST(VertexCurvature, TheNearestBallTellsWhyNothingIsKnown) {
   EXPECT_THAT(states_of(few), testing::Each(testing::AnyOf(CurvatureState::kFew, CurvatureState::kExposed)));
 }
 
+/// A spheroid has no edge; where a half of the balls is noise, the fits to the other half are continued too far.
+TEST(VertexCurvature, OnlyEdgesOfTheMeshAreEdges) {
+  Case solid = spheroid_case(60);
+  for (Ball& ball : solid.balls) {
+    if (ball.centre[0] > 0) ball.radius *= 1 + 0.05 * std::sin(1000 * ball.centre[1]);
+  }
+  std::size_t unknown = 0;
+  for (const VertexCurvature& at : solid.measured()) {
+    EXPECT_NE(at.state, CurvatureState::kEdge);
+    unknown += is_known(at.state) ? 0 : 1;
+  }
+  EXPECT_GT(unknown, solid.mesh.vertices.size() / 4);
+}
+
 TEST(VertexCurvature, NothingIsKnownWithoutBalls) {
   const IndexedMesh mesh = indexed(test::make_box({1, 1, 1}));
   for (const auto assignment : {CurvatureAssignment::kAlongSurface, CurvatureAssignment::kVoronoi}) {

@@ -6,9 +6,7 @@
 #include <limits>
 
 namespace medial_vk::picture {
-namespace {
 
-/// Rows: right, up, towards the viewer.
 Eigen::Matrix3f rotation_for(const PictureView& view) {
   const Eigen::Vector3d towards = Eigen::Vector3d(view.towards.data()).stableNormalized();
   const Eigen::Vector3d above(in_mesh_axes({0, 1, 0}, view.up).data());
@@ -22,8 +20,6 @@ Eigen::Matrix3f rotation_for(const PictureView& view) {
   rows << right.transpose(), towards.cross(right).transpose(), towards.transpose();
   return rows.cast<float>();
 }
-
-}  // namespace
 
 Camera::Camera(std::span<const Eigen::Vector3f> points, const PictureView& view, const Frame& frame)
     : rotation_(rotation_for(view)) {

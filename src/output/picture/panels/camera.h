@@ -20,6 +20,9 @@ struct ScreenPoint {
   float x = 0, y = 0, nearness = 0;
 };
 
+/// Rows: the directions to the right, up and towards the viewer, in the axes of the shape.
+Eigen::Matrix3f rotation_for(const PictureView& view);
+
 /// A perspective camera, fitted to points of the unit ball. View space: x to the right, y up, z towards the viewer.
 class Camera {
  public:

@@ -61,25 +61,41 @@ void draw_bar(const Scene& scene, Pen& pen, std::uint32_t left, std::uint32_t to
   pen.write(left + width - pen.width_of(scene.legend.greatest) + pen.scale(), below, scene.legend.greatest);
 }
 
-void draw_swatches(const Scene& scene, Pen& pen, std::uint32_t left, std::uint32_t top) {
-  const std::uint32_t side = 7 * pen.scale();
-  for (const auto& [colour, text] : scene.legend.swatches) {
-    if (colour < scene.palette.size()) {
-      pen.fill(left, top, side, side, scene.palette[colour]);
-      left += side + 3 * pen.scale();
+/// What swatches take up, in pixels and in rows.
+struct Extent {
+  std::uint32_t width = 0, rows = 1;
+};
+
+/// Calls `visit(swatch, left, row)` for each swatch. A row ends before it would be wider than `most`.
+template <typename Visit>
+Extent lay_out_swatches(const Scene& scene, const Pen& pen, std::uint32_t most, const Visit& visit) {
+  Extent whole;
+  std::uint32_t left = 0;
+  for (const auto& swatch : scene.legend.swatches) {
+    const bool has_colour = swatch.first < scene.palette.size();
+    const std::uint32_t width = pen.width_of(swatch.second) + (has_colour ? 15 : 5) * pen.scale();
+    if (left > 0 && left + width > most) {
+      left = 0;
+      ++whole.rows;
     }
-    pen.write(left, top, text);
-    left += pen.width_of(text) + 5 * pen.scale();
+    visit(swatch, left, whole.rows - 1);
+    left += width;
+    whole.width = std::max(whole.width, left);
   }
+  return whole;
 }
 
-/// The width of all swatches in a row.
-std::uint32_t swatches_width(const Scene& scene, const Pen& pen) {
-  std::uint32_t width = 0;
-  for (const auto& [colour, text] : scene.legend.swatches) {
-    width += pen.width_of(text) + (colour < scene.palette.size() ? 15 : 5) * pen.scale();
-  }
-  return width;
+void draw_swatches(const Scene& scene, Pen& pen, std::uint32_t left, std::uint32_t top, std::uint32_t most) {
+  const std::uint32_t side = 7 * pen.scale();
+  lay_out_swatches(scene, pen, most, [&](const auto& swatch, std::uint32_t x, std::uint32_t row) {
+    const auto& [colour, text] = swatch;
+    std::uint32_t at = left + x;
+    if (colour < scene.palette.size()) {
+      pen.fill(at, top + row * pen.line(), side, side, scene.palette[colour]);
+      at += side + 3 * pen.scale();
+    }
+    pen.write(at, top + row * pen.line(), text);
+  });
 }
 
 }  // namespace
@@ -88,12 +104,17 @@ void draw_legend(const Scene& scene, Picture& picture, LegendCorner corner) {
   Pen pen(picture);
   const bool has_bar = scene.legend.swatches.empty();
   const std::uint32_t margin = 16 * pen.scale();
+  if (picture.width <= 2 * margin) return;
+  const std::uint32_t most = picture.width - 2 * margin;
+  const Extent swatches = lay_out_swatches(scene, pen, most, [](const auto&, std::uint32_t, std::uint32_t) {});
   const std::uint32_t without_note =
-      std::max(has_bar ? 130 * pen.scale() : swatches_width(scene, pen), pen.width_of(scene.legend.title));
+      std::max(has_bar ? 130 * pen.scale() : swatches.width, pen.width_of(scene.legend.title));
   const std::uint32_t width = std::max(without_note, pen.width_of(scene.legend.note));
-  const std::uint32_t lines = scene.legend.note.empty() ? 2 : 3;
+  const std::uint32_t lines = 1 + swatches.rows + (scene.legend.note.empty() ? 0 : 1);
   const std::uint32_t height = lines * pen.line() + 10 * pen.scale();
-  if (picture.width < width + 2 * margin || picture.height < height + 2 * margin) return;  // no room
+  // Several rows may cover a part of the shape, but no more than a quarter of the picture.
+  const bool is_too_high = swatches.rows > 1 && 4 * (height + margin / 2) > picture.height;
+  if (width > most || picture.height < height + 2 * margin || is_too_high) return;  // no room
   const std::uint32_t left = corner == LegendCorner::kLowerLeft ? margin : picture.width - margin - width;
   const std::uint32_t top = picture.height - margin / 2 - height;
   pen.write(left, top, scene.legend.title);
@@ -101,8 +122,8 @@ void draw_legend(const Scene& scene, Picture& picture, LegendCorner corner) {
     draw_bar(scene, pen, left, top + pen.line(), without_note);
     pen.write(left, top + 2 * pen.line() + 10 * pen.scale(), scene.legend.note);
   } else {
-    draw_swatches(scene, pen, left, top + pen.line());
-    pen.write(left, top + 2 * pen.line(), scene.legend.note);
+    draw_swatches(scene, pen, left, top + pen.line(), most);
+    pen.write(left, top + (1 + swatches.rows) * pen.line(), scene.legend.note);
   }
 }
 

@@ -35,7 +35,7 @@ struct PictureOptions {
   PictureView view = {};
   PictureShow show = PictureShow::kPoints;
   PictureColour colour = PictureColour::kAngle;
-  bool frame_points = false;  ///< The picture shows all centres, not the mesh alone.
+  bool frame_points = false;  ///< The picture shows all points or balls, not the mesh alone.
   double least_angle = 0.6;   ///< Object angle at the lower end of the colours, radians; the upper end is pi/2.
 
   bool operator==(const PictureOptions&) const = default;

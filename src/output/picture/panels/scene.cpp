@@ -127,6 +127,25 @@ class Scale {
   Interval interval_;
 };
 
+/// The mesh, and with `frame_points` what is drawn of the spheres: balls with their ends to all sides of the view.
+std::vector<Point> points_in_frame(const Mesh& mesh, std::span<const MedialSphere> spheres,
+                                   const PictureOptions& options) {
+  std::vector<Point> points = mesh.vertices;
+  if (!options.frame_points) return points;
+  const Eigen::Matrix3d axes = rotation_for(options.view).cast<double>();
+  for (const MedialSphere& sphere : spheres) {
+    points.push_back(sphere.centre);
+    if (options.show == PictureShow::kPoints) continue;
+    for (int k = 0; k < 3; ++k) {
+      for (const double reach : {-sphere.radius, sphere.radius}) {
+        const Eigen::Vector3d end = Eigen::Vector3d(sphere.centre.data()) + reach * axes.row(k).transpose();
+        points.push_back({end.x(), end.y(), end.z()});
+      }
+    }
+  }
+  return points;
+}
+
 }  // namespace
 
 Eigen::AlignedBox3d box_of(const Mesh& mesh) { return box_around(mesh.vertices); }
@@ -138,10 +157,7 @@ Mark make_mark(const Mesh& mesh, const Point& centre, double radius, std::size_t
 
 Scene make_scene(const Mesh& mesh, std::span<const MedialSphere> spheres, double voxel_size,
                  const PictureOptions& options) {
-  std::vector<Point> shown = mesh.vertices;
-  if (options.frame_points) {
-    for (const MedialSphere& sphere : spheres) shown.push_back(sphere.centre);
-  }
+  const std::vector<Point> shown = points_in_frame(mesh, spheres, options);
   const Placement placement(shown);
   const Scale scale(spheres, options);
   Scene scene;
