@@ -233,7 +233,7 @@ Status print_result(const std::string& text) {
 void print_message(const std::string& text) { std::fputs(text.c_str(), stderr); }
 
 int exit_code(ErrorCode code) {
-  if (code == kCannotWrite) return 6;
+  if (code == kCannotWrite || code == kDiskFails) return 6;
   if (code == kCheckFailed) return 7;
   if (code == kWallTooThin) return 8;
   if (code == kSomeFailed) return 9;

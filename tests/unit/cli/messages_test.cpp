@@ -96,6 +96,7 @@ TEST(Messages, ExitCodes) {
   EXPECT_EQ(exit_code(ErrorCode::kNoDevice), 4);
   EXPECT_EQ(exit_code(ErrorCode::kOutOfMemory), 5);
   EXPECT_EQ(exit_code(kCannotWrite), 6);
+  EXPECT_EQ(exit_code(kDiskFails), 6);
   EXPECT_EQ(exit_code(kCheckFailed), 7);
   EXPECT_EQ(exit_code(ErrorCode::kInterrupted), 130);
 }
