@@ -1,10 +1,14 @@
 // The content of a mesh as a text: it depends on every number of the mesh, and on where one list ends.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "cli/batch/mesh_digest.h"
 #include "support/solids/solids.h"
@@ -36,6 +40,40 @@ TEST(MeshDigest, ChangesWithEveryNumberOfTheMesh) {
   counted.short_polygons = 0;
   counted.fallback_polygons = 1;
   expect_new(counted);
+}
+
+/// Modulo 2^61 - 1, by additions alone.
+std::uint64_t slow_product(std::uint64_t a, std::uint64_t b) {
+  constexpr std::uint64_t kPrime = (std::uint64_t{1} << 61) - 1;
+  std::uint64_t sum = 0;
+  for (; b > 0; b >>= 1, a = 2 * a % kPrime) {
+    if ((b & 1) != 0) sum = (sum + a) % kPrime;
+  }
+  return sum;
+}
+
+TEST(MeshDigest, IsThePolynomialAtBothPlaces) {
+  Mesh mesh;
+  mesh.vertices = {{-0.1, 1e300, 3}, {0, -7.7e-300, 2.5}};
+  mesh.triangles = {{0, 4'000'000'000u, 1}};
+  mesh.short_polygons = 5;
+  std::vector<std::uint32_t> words;
+  const auto add = [&](std::uint64_t number) {
+    words.push_back(static_cast<std::uint32_t>(number));
+    words.push_back(static_cast<std::uint32_t>(number >> 32));
+  };
+  for (const std::uint64_t count : {2, 1, 5, 0}) add(count);
+  for (const Point& vertex : mesh.vertices) {
+    for (const double coordinate : vertex) add(std::bit_cast<std::uint64_t>(coordinate));
+  }
+  for (const std::uint32_t corner : mesh.triangles[0]) words.push_back(corner);
+  std::string expected;
+  for (const std::uint64_t place : {0x1e3779b97f4a7c15ull, 0x043f6a8885a308d3ull}) {
+    std::uint64_t value = 1;
+    for (const std::uint32_t word : words) value = (slow_product(value, place) + word) % ((1ull << 61) - 1);
+    expected += fmt::format("{:016x}", value);
+  }
+  EXPECT_EQ(cli::mesh_digest(mesh), expected);
 }
 
 // Six triangles take as many words as three vertices.
