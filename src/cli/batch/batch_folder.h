@@ -13,7 +13,8 @@ namespace medial_vk::cli {
 /// While an object exists, no other process has one of the same folder.
 class BatchFolder {
  public:
-  /// Makes the folder if there is none. Errors: kCannotWrite, also while another process works in it.
+  /// Makes the folder if there is none, and the file .medial-vk.lock in it. Errors: kCannotWrite and kDiskFails,
+  /// the latter also while another process works in it.
   static Result<BatchFolder> open(const std::string& path);
   BatchFolder(BatchFolder&& other) noexcept;
   BatchFolder& operator=(BatchFolder&&) = delete;
@@ -23,12 +24,13 @@ class BatchFolder {
   std::string table_path() const { return path_of("batch.csv"); }
   std::string page_path() const { return path_of("batch.html"); }
 
-  /// The rows of the table that is there; none if there is no table. Error: kUsage if the file is no such table.
-  Result<std::vector<BatchRow>> read_rows() const;
-  /// Replaces the table, whole or not at all. Error: kCannotWrite.
+  /// The table that is there; without rows if there is none. Errors: kUsage if the file is no such table, kInvalidMesh
+  /// if it cannot be read.
+  Result<BatchTable> read_rows() const;
+  /// Replaces the table, whole or not at all. Error: kDiskFails.
   Status replace_table(std::span<const BatchRow> rows);
   /// A line more at the end of the table: a kill leaves all lines before it. Call after replace_table(). Error:
-  /// kCannotWrite.
+  /// kDiskFails.
   Status append(const BatchRow& row);
 
  private:

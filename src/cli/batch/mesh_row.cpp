@@ -19,6 +19,22 @@ std::string seconds_of(const RunRecord& record, std::initializer_list<std::strin
   return fmt::format("{:.6f}", sum);
 }
 
+void fill_interval(const Bounds& interval, BatchColumn lower, BatchColumn upper, BatchRow& row) {
+  row[lower] = fmt::format("{}", interval.lower);
+  row[upper] = fmt::format("{}", interval.upper);
+}
+
+void fill_boundary(const BoundaryRecord& boundary, BatchRow& row) {
+  if (boundary.thickness && !boundary.thickness->intervals.empty()) {
+    fill_interval(boundary.thickness->median, BatchColumn::kThicknessLower, BatchColumn::kThicknessUpper, row);
+  }
+  for (const WallRecord& wall : boundary.walls) {
+    const bool is_wall = wall.side == ThicknessSide::kWalls;
+    fill_interval(wall.found.diameter, is_wall ? BatchColumn::kLeastWallLower : BatchColumn::kLeastGapLower,
+                  is_wall ? BatchColumn::kLeastWallUpper : BatchColumn::kLeastGapUpper, row);
+  }
+}
+
 }  // namespace
 
 void fill_row(const RunRecord& record, bool has_points, BatchRow& row) {
@@ -37,6 +53,7 @@ void fill_row(const RunRecord& record, bool has_points, BatchRow& row) {
   row[BatchColumn::kSheets] = fmt::format("{}", record.sheets.sheets.size());
   row[BatchColumn::kUndecided] = fmt::format("{}", record.counters.undecided);
   row[BatchColumn::kSecondsSearch] = seconds_of(record, {"extract", "certify"});
+  fill_boundary(record.boundary, row);
   if (record.radii) {
     row[BatchColumn::kLeastRadius] = fmt::format("{}", record.radii->least);
     row[BatchColumn::kGreatestRadius] = fmt::format("{}", record.radii->greatest);

@@ -5,17 +5,22 @@
 #include <algorithm>
 #include <exception>
 #include <filesystem>
+#include <iterator>
 #include <new>
-#include <optional>
+#include <numeric>
+#include <span>
+#include <string>
 #include <system_error>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "base/stopwatch.h"
 #include "cli/batch/batch_folder.h"
 #include "cli/batch/find_meshes.h"
 #include "cli/batch/mesh_digest.h"
 #include "cli/batch/mesh_row.h"
+#include "cli/batch/result_files.h"
 #include "cli/extract/mesh_run.h"
 #include "cli/extract/wall_run.h"
 #include "cli/help/help_texts.h"
@@ -42,7 +47,14 @@ Error stopped_batch() { return {ErrorCode::kInterrupted, "interrupted; the meshe
 
 /// Errors that the next mesh would meet as well.
 bool ends_batch(ErrorCode code) {
-  return code == ErrorCode::kInterrupted || code == ErrorCode::kNoDevice || code == kCannotWrite;
+  return code == ErrorCode::kInterrupted || code == ErrorCode::kNoDevice || code == kDiskFails;
+}
+
+/// As texts of the table are written.
+std::string without_line_ends(std::string text) {
+  std::ranges::replace_if(
+      text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return text;
 }
 
 class BatchRun {
@@ -55,19 +67,19 @@ class BatchRun {
         shared_(false) {}  // several meshes a second have one line of progress
 
   Status run() {
+    Result<BatchTable> table = folder_.read_rows();
+    if (!table) return table.error();
+    for (const BatchRow& row : table.value().rows) rows_.emplace(row[BatchColumn::kName], row);
     if (Status status = check_files(); !status) return status;
-    Result<std::vector<BatchRow>> rows = folder_.read_rows();
-    if (!rows) return rows.error();
-    if (Status status = folder_.replace_table(rows.value()); !status) return status;
-    for (BatchRow& row : rows.value()) {
-      std::string name = row[BatchColumn::kName];
-      rows_.insert_or_assign(std::move(name), std::move(row));
-    }
+    if (Status status = check_sources(); !status) return status;
+    if (Status status = folder_.replace_table(table.value().rows); !status) return status;
+    tell_of_damage(table.value().damaged_lines);
     tell_of_kept_meshes();
-    for (std::size_t i = 0; i < meshes_.size(); ++i) {
-      progress_.update("meshes", static_cast<double>(i) / static_cast<double>(meshes_.size()));
+    std::size_t tried = 0;
+    for (const std::size_t next : in_order(table.value().rows)) {
+      progress_.update("meshes", static_cast<double>(tried++) / static_cast<double>(meshes_.size()));
       if (interrupted()) return stopped_batch();
-      if (Status status = run_mesh(meshes_[i]); !status) {
+      if (Status status = run_mesh(meshes_[next]); !status) {
         progress_.clear();
         return status.error().code == ErrorCode::kInterrupted ? Status(stopped_batch()) : status;
       }
@@ -78,22 +90,30 @@ class BatchRun {
   }
 
  private:
+  struct Outcome {
+    bool is_kept = false;     ///< An earlier run has done the same.
+    bool is_writing = false;  ///< Some of its files may be there.
+    bool has_files = false;   ///< All of them are.
+  };
+
   std::string stem_of(const BatchMesh& mesh) const { return folder_.path_of(mesh.name); }
   Options options_of(const BatchMesh& mesh) const { return options_of_mesh(options_.each, mesh.file, stem_of(mesh)); }
 
-  /// No result may replace a mesh.
+  /// The endings of the files that earlier runs may have left of a mesh.
+  std::string earlier_files(const BatchMesh& mesh) const {
+    const auto before = rows_.find(mesh.name);
+    return before == rows_.end() ? std::string() : before->second[BatchColumn::kFiles];
+  }
+
+  /// No result may replace a mesh, and none is removed that has become one.
   Status check_files() const {
-    const auto real = [](const std::string& path) {
-      std::error_code error;
-      return fs::weakly_canonical(fs::absolute(path, error), error).string();
-    };
     std::unordered_map<std::string, const BatchMesh*> inputs;
-    for (const BatchMesh& mesh : meshes_) inputs.emplace(real(mesh.file), &mesh);
+    for (const BatchMesh& mesh : meshes_) inputs.emplace(mesh.real, &mesh);
     for (const BatchMesh& mesh : meshes_) {
-      const Options of_mesh = options_of(mesh);
-      for (const NamedOutput& output : outputs_of(of_mesh)) {
-        if (output.file->empty()) continue;
-        if (const auto replaced = inputs.find(real(*output.file)); replaced != inputs.end()) {
+      const std::string stem = stem_of(mesh);
+      const std::string endings = endings_of_both(earlier_files(mesh), endings_of(options_of(mesh), stem));
+      for (const std::string& path : paths_of_results(stem, endings)) {
+        if (const auto replaced = inputs.find(real_path(path)); replaced != inputs.end()) {
           return Error{ErrorCode::kUsage,
                        fmt::format("a result of {} would overwrite the mesh {}", mesh.file, replaced->second->file)};
         }
@@ -102,26 +122,71 @@ class BatchRun {
     return {};
   }
 
+  /// The results of a mesh are not replaced by those of another one that happens to have its name.
+  Status check_sources() const {
+    for (const BatchMesh& mesh : meshes_) {
+      const auto before = rows_.find(mesh.name);
+      if (before == rows_.end()) continue;
+      const std::string& file = before->second[BatchColumn::kFile];
+      std::error_code error;
+      if (file.empty() || file == without_line_ends(mesh.real) || !fs::exists(file, error)) continue;
+      return Error{ErrorCode::kUsage,
+                   fmt::format("{} has results of {} with the name {}, and {} is another file: name another folder "
+                               "with -o",
+                               options_.output, file, mesh.name, mesh.file)};
+    }
+    return {};
+  }
+
+  void tell_of_damage(std::span<const std::uint64_t> lines) const {
+    if (lines.empty()) return;
+    const std::string others = lines.size() == 1 ? "" : fmt::format(", like {} others,", grouped(lines.size() - 1));
+    print_message(fmt::format("{}:{}: this line{} is damaged, and its mesh is done again\n", folder_.table_path(),
+                              lines.front(), others));
+  }
+
+  /// Meshes that were at work when a run ended come last, that of the oldest such run first: one that ends every run
+  /// then keeps no other from its turn. `rows` are in the order of their lines.
+  std::vector<std::size_t> in_order(std::span<const BatchRow> rows) const {
+    std::unordered_map<std::string, std::size_t> turn_of;
+    for (const BatchRow& row : rows) {
+      if (row[BatchColumn::kState] == kBatchStarted) turn_of.emplace(row[BatchColumn::kName], turn_of.size() + 1);
+    }
+    std::vector<std::size_t> order(meshes_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) {
+      const auto turn = turn_of.find(meshes_[i].name);
+      return turn == turn_of.end() ? std::size_t{0} : turn->second;
+    });
+    return order;
+  }
+
   /// Failures of the mesh become its row.
   Status run_mesh(const BatchMesh& mesh) {
     Stopwatch stopwatch;
     BatchRow row;
     row[BatchColumn::kName] = mesh.name;
+    row[BatchColumn::kFile] = mesh.real;
     row[BatchColumn::kOptions] = options_.given;
     row[BatchColumn::kVersion] = version();
-    bool is_kept = false;
+    Outcome outcome;
     Status status;
     try {
-      status = make_results(mesh, row, is_kept);
+      status = make_results(mesh, row, outcome);
     } catch (const std::bad_alloc&) {
       status = Error{ErrorCode::kOutOfMemory, "out of memory; try a lower --resolution"};
     } catch (const std::exception& error) {
       status = Error{ErrorCode::kInternal, fmt::format("internal error: {}", error.what())};
     }
     if (!status && ends_batch(status.error().code)) return status;
-    if (is_kept) {
+    if (outcome.is_kept) {
       ++kept_;
       return {};
+    }
+    // Results of an earlier run, whose mesh or options were others, are no results of this one.
+    if (!outcome.has_files) {
+      remove_results(stem_of(mesh), outcome.is_writing ? row[BatchColumn::kFiles] : earlier_files(mesh));
+      row[BatchColumn::kFiles].clear();
     }
     row[BatchColumn::kSeconds] = fmt::format("{:.6f}", stopwatch.lap());
     row[BatchColumn::kState] = status ? kBatchDone : kBatchFailed;
@@ -134,7 +199,7 @@ class BatchRun {
 
   void take_failure(const Error& error, BatchRow& row) {
     row[BatchColumn::kError] = in_words_of_options(error.message, Command::kBatch);
-    std::ranges::replace(row[BatchColumn::kError], '\n', ' ');
+    row[BatchColumn::kError] = without_line_ends(std::move(row[BatchColumn::kError]));
     // A device that was lost, or has no memory left, is opened again for the next mesh.
     if (error.code != ErrorCode::kInternal && error.code != ErrorCode::kOutOfMemory) return;
     shared_.context.reset();
@@ -154,15 +219,24 @@ class BatchRun {
     }
   }
 
-  Status make_results(const BatchMesh& mesh, BatchRow& row, bool& is_kept) {
+  Status make_results(const BatchMesh& mesh, BatchRow& row, Outcome& outcome) {
+    if (!mesh.fault.empty()) return Error{ErrorCode::kInvalidMesh, mesh.fault};
+    const Options of_mesh = options_of(mesh);
+    // A mesh that is done already is read to compare its content, and its line stays if that is the same.
+    const BatchRow* const done = done_before(row, of_mesh);
+    if (!done) {
+      if (Status status = begin(mesh, of_mesh, row); !status) return status;
+    }
     shared_.times.clear();
     Result<std::vector<ScenePart>> parts = read_meshes(mesh.file, false, shared_.times);
-    if (!parts) return fail_without_files(mesh, parts.error());
+    if (!parts) return parts.error();
     Mesh& read = parts.value().front().mesh;
     row[BatchColumn::kContent] = mesh_digest(read);
-    const Options of_mesh = options_of(mesh);
-    is_kept = is_done(row, of_mesh);
-    if (is_kept) return {};
+    outcome.is_kept = done && (*done)[BatchColumn::kContent] == row[BatchColumn::kContent];
+    if (outcome.is_kept) return {};
+    if (done) {
+      if (Status status = begin(mesh, of_mesh, row); !status) return status;
+    }
     if (!is_open_ && options_.each.backend == Backend::kVulkan) {
       shared_.opening.start(options_.each.device, options_.each.threads, progress_);
       is_open_ = true;
@@ -171,12 +245,28 @@ class BatchRun {
     bool has_points = false;
     Status status = search(run, std::move(read), has_points);
     fill_row(run.record(), has_points, row);
-    if (!status) return fail_without_files(mesh, status.error());
-    std::error_code error;
-    fs::create_directories(fs::path(of_mesh.output).parent_path(), error);  // write_files() tells what is wrong
-    if (status = write_files(run.files()); !status) return status;
+    if (!status) return status;
+    outcome.is_writing = true;
+    if (status = write_results(mesh, run.files()); !status) return status;
+    outcome.has_files = true;
+    row[BatchColumn::kFiles] = endings_of(of_mesh, stem_of(mesh));
     if (status = verdict(run.record().boundary.walls); !status) return status;
     return run.record().check ? verdict(*run.record().check) : Status();
+  }
+
+  /// From here on no earlier line of the mesh counts: its files change.
+  Status begin(const BatchMesh& mesh, const Options& of_mesh, BatchRow& row) {
+    row[BatchColumn::kState] = kBatchStarted;
+    row[BatchColumn::kFiles] = endings_of_both(earlier_files(mesh), endings_of(of_mesh, stem_of(mesh)));
+    return folder_.append(row);
+  }
+
+  Status write_results(const BatchMesh& mesh, std::span<const OutputFile> files) const {
+    const std::string stem = stem_of(mesh);
+    remove_results(stem, earlier_files(mesh));
+    std::error_code error;
+    fs::create_directories(fs::path(stem).parent_path(), error);  // write_files() tells what is wrong
+    return write_files(files);
   }
 
   static Status search(MeshRun& run, Mesh mesh, bool& has_points) {
@@ -188,28 +278,18 @@ class BatchRun {
     return run.make_files();
   }
 
-  /// Results of an earlier run, whose mesh or options were others, are no results of this one.
-  Status fail_without_files(const BatchMesh& mesh, const Error& why) const {
-    if (ends_batch(why.code) || !rows_.contains(mesh.name)) return why;
-    const Options of_mesh = options_of(mesh);
-    for (const NamedOutput& output : outputs_of(of_mesh)) {
-      std::error_code ignored;
-      if (!output.file->empty()) fs::remove(*output.file, ignored);
-    }
-    return why;
-  }
-
-  /// Whether an earlier run has done the same on the same mesh, and its files are there.
-  bool is_done(const BatchRow& row, const Options& of_mesh) const {
+  /// The line of an earlier run that has done the same on a mesh of this name, whose files are there; none: nullptr.
+  const BatchRow* done_before(const BatchRow& row, const Options& of_mesh) const {
     const auto before = rows_.find(row[BatchColumn::kName]);
-    if (before == rows_.end() || !before->second.is_done()) return false;
-    for (const BatchColumn column : {BatchColumn::kContent, BatchColumn::kOptions, BatchColumn::kVersion}) {
-      if (before->second[column] != row[column]) return false;
+    if (before == rows_.end() || !before->second.is_done()) return nullptr;
+    for (const BatchColumn column : {BatchColumn::kOptions, BatchColumn::kVersion}) {
+      if (before->second[column] != row[column]) return nullptr;
     }
-    return std::ranges::all_of(outputs_of(of_mesh), [](const NamedOutput& output) {
+    const bool has_files = std::ranges::all_of(outputs_of(of_mesh), [](const NamedOutput& output) {
       std::error_code error;
       return output.file->empty() || fs::exists(*output.file, error);
     });
+    return has_files ? &before->second : nullptr;
   }
 
   Status conclude() {
@@ -240,10 +320,11 @@ class BatchRun {
     for (const BatchRow& row : rows) {
       const std::string& name = row[BatchColumn::kName];
       const Options of_mesh = options_of_mesh(options_.each, "", name);
+      const std::vector<std::string> files = paths_of_results(name, row[BatchColumn::kFiles]);
+      const auto of_row = [&](const std::string& file) { return std::ranges::find(files, file) != files.end(); };
       BatchCard card = {&row, "", ""};
-      std::error_code error;
-      if (fs::exists(folder_.path_of(of_mesh.picture), error)) card.picture = of_mesh.picture;
-      if (fs::exists(folder_.path_of(of_mesh.output), error)) card.points = of_mesh.output;
+      if (of_row(of_mesh.picture)) card.picture = of_mesh.picture;
+      if (of_row(of_mesh.output)) card.points = of_mesh.output;
       cards.push_back(std::move(card));
     }
     const OutputFile page = {folder_.page_path(), encode_batch_page(cards)};

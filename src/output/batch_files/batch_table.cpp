@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <unordered_map>
 #include <utility>
 
@@ -11,10 +12,37 @@ namespace medial_vk {
 namespace {
 
 constexpr std::array<std::string_view, kBatchColumns> kColumnNames = {
-    "name",         "state",      "error",        "triangles",       "closed",         "longest_side",
-    "volume",       "points",     "sheets",       "undecided",       "least_radius",   "greatest_radius",
-    "balls_volume", "balls_area", "seconds_read", "seconds_prepare", "seconds_search", "seconds",
-    "device",       "content",    "options",      "version"};
+    "name",
+    "state",
+    "error",
+    "file",
+    "triangles",
+    "closed",
+    "longest_side",
+    "volume",
+    "points",
+    "sheets",
+    "undecided",
+    "least_radius",
+    "greatest_radius",
+    "balls_volume",
+    "balls_area",
+    "least_wall_lower",
+    "least_wall_upper",
+    "least_gap_lower",
+    "least_gap_upper",
+    "thickness_lower",
+    "thickness_upper",
+    "seconds_read",
+    "seconds_prepare",
+    "seconds_search",
+    "seconds",
+    "device",
+    "files",
+    "content",
+    "options",
+    "version",
+};
 
 std::string cell(std::string_view text) {
   std::string plain;
@@ -25,16 +53,21 @@ std::string cell(std::string_view text) {
   return out + "\"";
 }
 
-/// The texts between commas, of which quotes hold any; none if a quote is not where it may be.
-std::optional<std::vector<std::string>> split_cells(std::string_view line) {
-  std::vector<std::string> cells(1);
+/// The texts between commas, of which quotes hold any.
+struct Cells {
+  std::vector<std::string> texts = std::vector<std::string>(1);
+  bool is_whole = true;  ///< False: a quote is where it may not be, within the last text.
+};
+
+Cells split_cells(std::string_view line) {
+  Cells out;
   std::size_t i = 0;
   const auto read_quoted = [&] {
     for (++i; i < line.size(); ++i) {
       if (line[i] != '"') {
-        cells.back() += line[i];
+        out.texts.back() += line[i];
       } else if (i + 1 < line.size() && line[i + 1] == '"') {
-        cells.back() += line[i++];
+        out.texts.back() += line[i++];
       } else {
         ++i;
         return i == line.size() || line[i] == ',';
@@ -44,24 +77,25 @@ std::optional<std::vector<std::string>> split_cells(std::string_view line) {
   };
   while (i < line.size()) {
     if (line[i] == '"') {
-      if (!cells.back().empty() || !read_quoted()) return std::nullopt;
+      out.is_whole = out.texts.back().empty() && read_quoted();
+      if (!out.is_whole) return out;
     } else if (line[i] == ',') {
-      cells.emplace_back();
+      out.texts.emplace_back();
       ++i;
     } else {
-      cells.back() += line[i++];
+      out.texts.back() += line[i++];
     }
   }
-  return cells;
+  return out;
 }
 
-std::optional<BatchRow> decode_row(std::string_view line) {
-  std::optional<std::vector<std::string>> cells = split_cells(line);
-  if (!cells || cells->size() != kBatchColumns) return std::nullopt;
+std::optional<BatchRow> row_of_cells(Cells cells) {
+  if (!cells.is_whole || cells.texts.size() != kBatchColumns) return std::nullopt;
   BatchRow row;
-  std::ranges::move(*cells, row.texts.begin());
+  std::ranges::move(cells.texts, row.texts.begin());
   const std::string& state = row[BatchColumn::kState];
-  if (row[BatchColumn::kName].empty() || (state != kBatchDone && state != kBatchFailed)) return std::nullopt;
+  const bool is_known = state == kBatchDone || state == kBatchFailed || state == kBatchStarted;
+  if (row[BatchColumn::kName].empty() || !is_known) return std::nullopt;
   return row;
 }
 
@@ -85,31 +119,33 @@ std::string encode_batch_row(const BatchRow& row) {
   return line + "\n";
 }
 
-Result<std::vector<BatchRow>> decode_batch_table(std::string_view bytes) {
+Result<BatchTable> decode_batch_table(std::string_view bytes) {
   const std::string header = batch_table_header();
   if (!bytes.starts_with(header)) {
     return Error{ErrorCode::kInvalidMesh, "line 1: these are not the columns of a table of medial-vk batch"};
   }
-  std::vector<BatchRow> rows;
+  BatchTable table;
+  std::vector<BatchRow>& rows = table.rows;
   std::unordered_map<std::string, std::size_t> row_of;
   bytes.remove_prefix(header.size());
-  for (std::size_t number = 2; !bytes.empty(); ++number) {
+  for (std::uint64_t number = 2; !bytes.empty(); ++number) {
     const std::size_t end = bytes.find('\n');
     if (end == std::string_view::npos) break;  // cut off
-    std::optional<BatchRow> row = decode_row(bytes.substr(0, end));
-    if (!row) {
-      return Error{ErrorCode::kInvalidMesh,
-                   fmt::format("line {}: it is no line of a table of medial-vk batch", number)};
-    }
-    const auto [at, is_new] = row_of.try_emplace((*row)[BatchColumn::kName], rows.size());
-    if (is_new) {
-      rows.push_back(std::move(*row));
-    } else {
-      rows[at->second] = std::move(*row);
-    }
+    Cells cells = split_cells(bytes.substr(0, end));
     bytes.remove_prefix(end + 1);
+    const auto before = row_of.find(cells.texts.front());
+    std::optional<BatchRow> row = row_of_cells(std::move(cells));
+    if (!row) {
+      table.damaged_lines.push_back(number);
+      if (before != row_of.end()) rows[before->second][BatchColumn::kState] = kBatchStarted;
+      continue;
+    }
+    if (before != row_of.end()) rows[before->second][BatchColumn::kName].clear();  // an earlier line of the mesh
+    row_of.insert_or_assign((*row)[BatchColumn::kName], rows.size());
+    rows.push_back(std::move(*row));
   }
-  return rows;
+  std::erase_if(rows, [](const BatchRow& row) { return row[BatchColumn::kName].empty(); });
+  return table;
 }
 
 }  // namespace medial_vk

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,7 @@ enum class BatchColumn {
   kName,
   kState,
   kError,
+  kFile,
   kTriangles,
   kClosed,
   kLongestSide,
@@ -28,19 +30,27 @@ enum class BatchColumn {
   kGreatestRadius,
   kBallsVolume,
   kBallsArea,
+  kLeastWallLower,
+  kLeastWallUpper,
+  kLeastGapLower,
+  kLeastGapUpper,
+  kThicknessLower,
+  kThicknessUpper,
   kSecondsRead,
   kSecondsPrepare,
   kSecondsSearch,
   kSeconds,
   kDevice,
+  kFiles,
   kContent,
   kOptions,
   kVersion,
 };
 inline constexpr std::size_t kBatchColumns = static_cast<std::size_t>(BatchColumn::kVersion) + 1;
 
-/// The state of a mesh whose files are written, and of one without files.
-inline constexpr std::string_view kBatchDone = "done", kBatchFailed = "failed";
+/// The states of a mesh: its files are written; it has none, or they did not pass a check; a run has begun it, and its
+/// files may be those of any run.
+inline constexpr std::string_view kBatchDone = "done", kBatchFailed = "failed", kBatchStarted = "started";
 
 /// A line of the table as texts; an empty one is unknown or has not been measured. No text contains a line break:
 /// encode_batch_row() writes a space instead.
@@ -59,9 +69,14 @@ std::string batch_table_header();
 /// A line with its end. Texts with commas or quotes are quoted as RFC 4180 says.
 std::string encode_batch_row(const BatchRow& row);
 
-/// The rows of a table, in its order; an end that was cut off by a kill is left out. A table may have several lines of
-/// a mesh: the last one counts, and is the only one returned. Error: kInvalidMesh with the line, if the bytes are no
-/// such table.
-Result<std::vector<BatchRow>> decode_batch_table(std::string_view bytes);
+struct BatchTable {
+  std::vector<BatchRow> rows;                ///< One for each mesh: its last line. In the order of these lines.
+  std::vector<std::uint64_t> damaged_lines;  ///< The numbers of lines that are no rows, from 1.
+};
+
+/// An end that was cut off by a kill is left out. What a damaged line said is unknown: if its name can be read, an
+/// earlier row of that mesh becomes one with the state kBatchStarted. Error: kInvalidMesh with the line, if the first
+/// line does not have these columns.
+Result<BatchTable> decode_batch_table(std::string_view bytes);
 
 }  // namespace medial_vk

@@ -40,9 +40,9 @@ class BatchCommand : public ToolTest {
   bool exists(const std::string& name) const { return std::filesystem::exists(path(name)); }
 
   std::vector<BatchRow> rows(const std::string& folder = "out") const {
-    Result<std::vector<BatchRow>> rows = decode_batch_table(bytes_of(folder + "/batch.csv"));
-    EXPECT_TRUE(rows.ok()) << rows.error().message;
-    return rows.ok() ? std::move(rows).value() : std::vector<BatchRow>();
+    Result<BatchTable> table = decode_batch_table(bytes_of(folder + "/batch.csv"));
+    EXPECT_TRUE(table.ok()) << table.error().message;
+    return table.ok() ? std::move(table).value().rows : std::vector<BatchRow>();
   }
 
   /// State by name.

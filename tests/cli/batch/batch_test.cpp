@@ -50,9 +50,12 @@ TEST_F(BatchTest, TheTableHasTheNumbersOfEachMesh) {
   const ToolResult result = batch({"in", "-o", "out", "--format", ".csv", "--volumes"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(bytes_of("out/batch.csv"),
-              testing::StartsWith("name,state,error,triangles,closed,longest_side,volume,points,sheets,undecided,"
-                                  "least_radius,greatest_radius,balls_volume,balls_area,seconds_read,seconds_prepare,"
-                                  "seconds_search,seconds,device,content,options,version\na.obj,done,,12,yes,1,"));
+              testing::StartsWith("name,state,error,file,triangles,closed,longest_side,volume,points,sheets,undecided,"
+                                  "least_radius,greatest_radius,balls_volume,balls_area,least_wall_lower,"
+                                  "least_wall_upper,least_gap_lower,least_gap_upper,thickness_lower,thickness_upper,"
+                                  "seconds_read,seconds_prepare,seconds_search,seconds,device,files,content,options,"
+                                  "version\na.obj,done,," +
+                                  std::filesystem::canonical(path("in/a.obj")).string() + ",12,yes,1,"));
   const BatchRow row = rows().at(0);
   EXPECT_NEAR(std::stod(row[BatchColumn::kVolume]), 0.4, 1e-12);
   const std::string points = bytes_of("out/a.obj.medial.csv");
@@ -162,7 +165,7 @@ TEST_F(BatchTest, InputsWithoutMeshesAndUnreadableOnesEndTheRun) {
 TEST_F(BatchTest, RefusesWhatItCannotDo) {
   write_box("in/a.obj", 0.5);
   const std::vector<std::pair<std::vector<std::string>, std::string>> refused = {
-      {{"in"}, "-o FOLDER is needed"},
+      {{"in"}, "-o OUT is needed"},
       {{"-o", "out"}, "no FOLDER, LIST or mesh given"},
       {{"in", "-o", "-"}, "-o is a folder"},
       {{"-", "-", "-o", "out"}, "one list, not several"},
@@ -172,6 +175,10 @@ TEST_F(BatchTest, RefusesWhatItCannotDo) {
       {{"in", "-o", "out", "--picture", "-"}, "--picture: '-' is no ending"},
       {{"in", "-o", "out", "--boundary", ".obj"}, "--boundary: 'MESH.boundary.obj' ends in none of"},
       {{"in", "-o", "out", "--size", "64"}, "--size is about the picture"},
+      {{"in", "-o", "out", "--curvature"}, "--curvature has no column in the table: use it with --report .json"},
+      {{"in", "-o", "out", "--kernel-times"}, "--kernel-times has no column in the table: use it with --report .json"},
+      {{"", "-o", "out"}, "an input is empty"},
+      {{"in", "", "-o", "out"}, "an input is empty"},
       {{"in", "-o", "out", "--each"}, "unknown option --each"},
       {{"in", "-o", "out", "--list-devices"}, "unknown option --list-devices"},
       {{"in", "-o", "out", "-q", "-v"}, "-q and -v"},
@@ -194,7 +201,8 @@ TEST_F(BatchTest, ResultsAreNoInputsAndReplaceNone) {
   EXPECT_THAT(states("in/out"), ElementsAre(Pair("a.obj", "done")));
   const std::string before = bytes_of("in/out/a.obj.spheres.ply");
   const ToolResult result = batch({"a.obj", "a.obj.spheres.ply", "-o", "."});
-  EXPECT_EQ(result.exit_code, 9);  // no such files
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.err, HasSubstr("a.obj: No such file or directory"));
   write_box("a.obj", 0.5);
   write("a.obj.spheres.ply", before);
   const ToolResult refused = batch({"a.obj", "a.obj.spheres.ply", "-o", ".", "--mesh-spheres"});
@@ -211,13 +219,13 @@ TEST_F(BatchTest, LeavesForeignTablesAndFoldersInUseAlone) {
   EXPECT_THAT(foreign.err, HasSubstr("out/batch.csv: line 1"));
   EXPECT_EQ(bytes_of("out/batch.csv"), "name,price\na,1\n");
   std::filesystem::remove(path("out/batch.csv"));
-  const int folder = ::open(path("out").c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  ASSERT_EQ(::flock(folder, LOCK_EX), 0);
+  const int lock = ::open(path("out/.medial-vk.lock").c_str(), O_RDWR | O_CLOEXEC);
+  ASSERT_EQ(::flock(lock, LOCK_EX), 0);
   const ToolResult in_use = batch({"in", "-o", "out"});
   EXPECT_EQ(in_use.exit_code, 6);
   EXPECT_THAT(in_use.err, HasSubstr("another medial-vk batch is writing to out"));
   EXPECT_FALSE(exists("out/batch.csv"));
-  ::close(folder);
+  ::close(lock);
   EXPECT_EQ(batch({"in", "-o", "out"}).exit_code, 0);
   write("file", "");
   EXPECT_EQ(batch({"in", "-o", "file/out"}).exit_code, 6);

@@ -62,6 +62,19 @@ Status take_endings(const std::string& format, Options& each) {
   return {};
 }
 
+/// What is measured must be written somewhere.
+Status check_measures(const Options& each) {
+  const bool has_curvature = !each.report.empty() || !each.boundary.empty() || each.strokes ||
+                             (!each.picture.empty() && each.look.show == PictureShow::kBoundary);
+  if (each.curvature && !has_curvature) {
+    return usage_error("--curvature has no column in the table: use it with --report .json or --boundary .EXT");
+  }
+  if (each.extraction.measurements.kernel_times && each.report.empty()) {
+    return usage_error("--kernel-times has no column in the table: use it with --report .json");
+  }
+  return {};
+}
+
 /// In quotes where a reader could take it for several words.
 std::string quoted(const std::string& value) {
   const bool is_plain =
@@ -118,7 +131,10 @@ Result<BatchOptions> BatchOptionParser::parse(const std::vector<std::string>& ar
   if (Status status = parse_arguments(declared_->app, arguments, "it is no mesh"); !status) return status.error();
   if (options.help) return options;
   if (options.inputs.empty()) return usage_error("no FOLDER, LIST or mesh given");
-  if (options.output.empty()) return usage_error("-o FOLDER is needed: many meshes have many files");
+  if (std::ranges::find(options.inputs, "") != options.inputs.end()) {
+    return usage_error("an input is empty: FOLDER, LIST and mesh are paths");
+  }
+  if (options.output.empty()) return usage_error("-o OUT is needed: many meshes have many files");
   if (options.output == "-") return usage_error("-o is a folder: many files cannot go to standard output");
   if (std::ranges::count(options.inputs, "-") > 1) return usage_error("standard input is one list, not several");
   options.given = given_options(declared_->app);
@@ -133,6 +149,7 @@ Result<BatchOptions> BatchOptionParser::parse(const std::vector<std::string>& ar
   if (Status status = check_combinations(each); !status) return status.error();
   if (Status status = take_endings(declared_->format, each); !status) return status.error();
   if (Status status = complete_files(each); !status) return status.error();
+  if (Status status = check_measures(each); !status) return status.error();
   return options;
 }
 
