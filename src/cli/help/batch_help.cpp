@@ -5,8 +5,8 @@ namespace medial_vk::cli {
 
 std::string batch_help_text() {
   return R"(medial-vk batch runs medial-vk on many meshes in one process: the device stays
-open, a mesh that fails ends nothing, and a later run goes on where this one
-ended.
+open, a mesh that fails does not stop the others, and a later run goes on where
+this one ended.
 
 Usage:
   medial-vk batch [options] FOLDER -o OUT     every mesh in it, at any depth
@@ -62,13 +62,17 @@ Other:
   -v, --verbose         also a line for each mesh
   -h, --help            print this and exit
 
+Left out in folders: names that begin with a dot, files in .medial.ply, and
+folders below that hold a table of this command.
+
 A mesh is not done again if the table says that it is done, its triangles, the
 options and the version of the program are the same as then, and its files are
-there. Files appear whole or not at all, those of a mesh before its line.
+there. Files appear whole or not at all. Those that earlier runs have written
+for a mesh are removed when it is done again.
 
-Exit codes: 0 all meshes done, 1 internal error, 2 wrong usage, 3 no mesh, or a
-folder or list unreadable, 4 no usable Vulkan device, 5 out of memory, 6 cannot
-write, 9 some meshes failed, 130 interrupted.
+Exit codes: 0 all meshes done, 1 internal error, 2 wrong usage, 3 no mesh, or an
+input missing or unreadable, 4 no usable Vulkan device, 5 out of memory,
+6 cannot write, 9 some meshes failed, 130 interrupted.
 )";
 }
 
