@@ -8,6 +8,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "common/csv_cell.h"
+
 namespace medial_vk {
 namespace {
 
@@ -44,13 +46,10 @@ constexpr std::array<std::string_view, kBatchColumns> kColumnNames = {
     "version",
 };
 
-std::string cell(std::string_view text) {
-  std::string plain;
-  for (const char c : text) plain += c == '\n' || c == '\r' ? ' ' : c;
-  if (plain.find_first_of(",\"") == std::string::npos) return plain;
-  std::string out = "\"";
-  for (const char c : plain) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
+std::string in_one_line(std::string text) {
+  std::ranges::replace_if(
+      text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return text;
 }
 
 /// The texts between commas, of which quotes hold any.
@@ -114,7 +113,7 @@ std::string encode_batch_row(const BatchRow& row) {
   std::string line;
   for (std::size_t i = 0; i < kBatchColumns; ++i) {
     if (i > 0) line += ',';
-    line += cell(row.texts[i]);
+    line += csv_cell(in_one_line(row.texts[i]));
   }
   return line + "\n";
 }
