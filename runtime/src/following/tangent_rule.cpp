@@ -11,7 +11,7 @@ namespace medial_vk {
 namespace {
 
 // Below this object angle (radians) or share of its last radius, a ball is tried between both contacts, too.
-constexpr double kFlatAngle = 0.4;
+constexpr double kFlatAngle = 0.42;
 constexpr double kShrunk = 0.8;
 
 // By which a distance relative to the radius, and the cosine of the angle between the spokes, may have changed.

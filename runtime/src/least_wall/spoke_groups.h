@@ -48,8 +48,8 @@ class SpokeGroups {
   std::array<SpokeCone, 2> caps_;
 };
 
-/// A narrow cap that holds all cones. One of any directions if no cap does whose half-angle is below `limit`, at most a
-/// right angle; and one below `enough`, though not the narrowest, as soon as it is found.
+/// A narrow cap that holds all cones. Where none was found whose half-angle is below `limit`, at most a right angle,
+/// the one that is returned is wider, or that of all directions. The first one below `enough` is returned at once.
 SpokeCone narrow_cap(std::span<const SpokeCone> cones, double limit, double enough = 0);
 
 }  // namespace medial_vk

@@ -4,7 +4,7 @@
 #define MEDIAL_VK_FOLLOWING_FIRST_BALL_GLSL
 
 const float kNoLongerRest = 0.001;    // a change of the radius and of the cosine between both directions
-const float kFlatTurn = 0.6065866;  // squared_turn() at an object angle of 0.4
+const float kFlatTurn = 0.6650743;  // squared_turn() at an object angle of 0.42
 const float kShrunkNow = 0.8;         // of the last radius
 
 // At rest, or after the last frame.

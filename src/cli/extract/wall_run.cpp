@@ -69,6 +69,7 @@ class PlaceSearch {
         group_thin_places(points, at_points.value(), share, {least.lower, record_.demanded}, record_.object_angle);
     how_.queries = ThicknessOptions().queries;
     if (Status status = refine(places); !status) return status.error();
+    std::erase_if(places, [&](const ThinPlace& p) { return p.least.upper < least.lower; });  // in no wall, as it proves
     const bool is_known = std::ranges::any_of(places, [&](const ThinPlace& p) { return p.least.lower <= least.upper; });
     if (!is_known) places.insert(places.begin(), ThinPlace{least, record_.found.thinnest->a, 0});
     return places;
