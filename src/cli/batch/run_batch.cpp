@@ -150,7 +150,7 @@ class BatchRun {
   std::vector<std::size_t> in_order(std::span<const BatchRow> rows) const {
     std::unordered_map<std::string, std::size_t> turn_of;
     for (const BatchRow& row : rows) {
-      if (row[BatchColumn::kState] == kBatchStarted) turn_of.emplace(row[BatchColumn::kName], turn_of.size() + 1);
+      if (row.is_at_work()) turn_of.emplace(row[BatchColumn::kName], turn_of.size() + 1);
     }
     std::vector<std::size_t> order(meshes_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -181,7 +181,7 @@ class BatchRun {
     if (!status && ends_batch(status.error().code)) return status;
     if (outcome.is_kept) {
       ++kept_;
-      return {};
+      return status;
     }
     // Results of an earlier run, whose mesh or options were others, are no results of this one.
     if (!outcome.has_files) {
@@ -222,21 +222,20 @@ class BatchRun {
   Status make_results(const BatchMesh& mesh, BatchRow& row, Outcome& outcome) {
     if (!mesh.fault.empty()) return Error{ErrorCode::kInvalidMesh, mesh.fault};
     const Options of_mesh = options_of(mesh);
-    // A mesh that is done already is read to compare its content, and its line stays if that is the same.
-    const BatchRow* const done = done_before(row, of_mesh);
-    if (!done) {
-      if (Status status = begin(mesh, of_mesh, row); !status) return status;
-    }
+    // A mesh that is done already is read to compare its content, and is done if that is the same.
+    BatchRow* const done = done_before(row, of_mesh);
+    if (Status status = done ? append_again(*done, kBatchReading) : begin(mesh, of_mesh, row); !status) return status;
     shared_.times.clear();
     Result<std::vector<ScenePart>> parts = read_meshes(mesh.file, false, shared_.times);
     if (!parts) return parts.error();
     Mesh& read = parts.value().front().mesh;
-    row[BatchColumn::kContent] = mesh_digest(read);
-    outcome.is_kept = done && (*done)[BatchColumn::kContent] == row[BatchColumn::kContent];
-    if (outcome.is_kept) return {};
+    const std::string content = mesh_digest(read);
+    outcome.is_kept = done && (*done)[BatchColumn::kContent] == content;
+    if (outcome.is_kept) return append_again(*done, kBatchDone);
     if (done) {
       if (Status status = begin(mesh, of_mesh, row); !status) return status;
     }
+    row[BatchColumn::kContent] = content;
     if (!is_open_ && options_.each.backend == Backend::kVulkan) {
       shared_.opening.start(options_.each.device, options_.each.threads, progress_);
       is_open_ = true;
@@ -252,6 +251,12 @@ class BatchRun {
     row[BatchColumn::kFiles] = endings_of(of_mesh, stem_of(mesh));
     if (status = verdict(run.record().boundary.walls); !status) return status;
     return run.record().check ? verdict(*run.record().check) : Status();
+  }
+
+  /// An earlier line counts again, or until another one follows, with this state.
+  Status append_again(BatchRow& before, std::string_view state) {
+    before[BatchColumn::kState] = state;
+    return folder_.append(before);
   }
 
   /// From here on no earlier line of the mesh counts: its files change.
@@ -279,9 +284,9 @@ class BatchRun {
   }
 
   /// The line of an earlier run that has done the same on a mesh of this name, whose files are there; none: nullptr.
-  const BatchRow* done_before(const BatchRow& row, const Options& of_mesh) const {
+  BatchRow* done_before(const BatchRow& row, const Options& of_mesh) {
     const auto before = rows_.find(row[BatchColumn::kName]);
-    if (before == rows_.end() || !before->second.is_done()) return nullptr;
+    if (before == rows_.end() || !before->second.has_results()) return nullptr;
     for (const BatchColumn column : {BatchColumn::kOptions, BatchColumn::kVersion}) {
       if (before->second[column] != row[column]) return nullptr;
     }

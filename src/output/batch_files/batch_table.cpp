@@ -92,8 +92,7 @@ std::optional<BatchRow> row_of_cells(Cells cells) {
   if (!cells.is_whole || cells.texts.size() != kBatchColumns) return std::nullopt;
   BatchRow row;
   std::ranges::move(cells.texts, row.texts.begin());
-  const std::string& state = row[BatchColumn::kState];
-  const bool is_known = state == kBatchDone || state == kBatchFailed || state == kBatchStarted;
+  const bool is_known = row.has_results() || row.is_at_work() || row[BatchColumn::kState] == kBatchFailed;
   if (row[BatchColumn::kName].empty() || !is_known) return std::nullopt;
   return row;
 }

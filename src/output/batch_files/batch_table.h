@@ -48,9 +48,11 @@ enum class BatchColumn {
 };
 inline constexpr std::size_t kBatchColumns = static_cast<std::size_t>(BatchColumn::kVersion) + 1;
 
-/// The states of a mesh: its files are written; it has none, or they did not pass a check; a run has begun it, and its
-/// files may be those of any run.
-inline constexpr std::string_view kBatchDone = "done", kBatchFailed = "failed", kBatchStarted = "started";
+/// The states of a mesh. Done: its files are written. Failed: it has none, or they did not pass a check. Started: a run
+/// has begun it, and its files may be those of any run. Reading: it was done, and a run reads it to see whether it has
+/// changed; all other texts are those of the line that it was done.
+inline constexpr std::string_view kBatchDone = "done", kBatchFailed = "failed", kBatchStarted = "started",
+                                  kBatchReading = "reading";
 
 /// A line of the table as texts; an empty one is unknown or has not been measured. No text contains a line break:
 /// encode_batch_row() writes a space instead.
@@ -60,6 +62,12 @@ struct BatchRow {
   std::string& operator[](BatchColumn column) { return texts[static_cast<std::size_t>(column)]; }
   const std::string& operator[](BatchColumn column) const { return texts[static_cast<std::size_t>(column)]; }
   bool is_done() const { return (*this)[BatchColumn::kState] == kBatchDone; }
+  /// Its files are those that the line describes.
+  bool has_results() const { return is_done() || (*this)[BatchColumn::kState] == kBatchReading; }
+  /// A run works on this mesh, or ended while it did.
+  bool is_at_work() const {
+    return (*this)[BatchColumn::kState] == kBatchStarted || (*this)[BatchColumn::kState] == kBatchReading;
+  }
   bool operator==(const BatchRow&) const = default;
 };
 

@@ -60,7 +60,7 @@ class BatchKills : public test::BatchCommand {
     if (!exists("out/batch.csv")) return;
     for (const BatchRow& row : rows()) {
       if (row[BatchColumn::kState] == kBatchStarted) continue;
-      EXPECT_TRUE(row.is_done()) << row[BatchColumn::kError];
+      EXPECT_TRUE(row.has_results()) << row[BatchColumn::kError];
       EXPECT_TRUE(exists("out/" + row[BatchColumn::kName] + ".medial.ply")) << row[BatchColumn::kName];
     }
   }
@@ -89,7 +89,7 @@ TEST_F(BatchKills, LoseTheMeshAtWorkAtMost) {
   std::map<std::string, std::filesystem::file_time_type> recorded;
   if (exists("out/batch.csv")) {
     for (const BatchRow& row : rows()) {
-      if (!row.is_done()) continue;
+      if (!row.has_results()) continue;
       const std::string file = "out/" + row[BatchColumn::kName] + ".medial.ply";
       recorded[file] = time_of(file);
     }
@@ -126,7 +126,7 @@ class BatchOtherOptions : public test::BatchCommand {
   /// The files of each mesh that is done are those of its options.
   void expect_files_of_rows(const std::map<std::string, std::map<std::string, std::string>>& of_angle) const {
     for (const BatchRow& row : rows()) {
-      if (!row.is_done()) continue;
+      if (!row.has_results()) continue;
       const std::string options = row[BatchColumn::kOptions];
       const auto& expected = of_angle.at(options.find("0.7") == std::string::npos ? "0.5" : "0.7");
       for (const char* const ending : {".medial.ply", ".volumes.csv"}) {
@@ -199,25 +199,34 @@ TEST_F(BatchOtherOptions, AKillBeforeTheLineLeavesNoOlderLine) {
 }
 
 // A pipe that no one writes to keeps a run waiting for ever.
-TEST_F(BatchKills, AMeshThatEndsEveryRunComesLast) {
-  for (const char* const pipe : {"p.obj", "q.obj"}) ASSERT_EQ(::mkfifo(path(pipe).c_str(), 0600), 0);
-  write("list.txt", "p.obj\nin/0.obj\nq.obj\nin/1.obj\n");
-  const auto kill_when = [&](const std::string& last) {
+class BatchAtWork : public test::BatchCommand {
+ protected:
+  void make_pipe(const std::string& name) const { ASSERT_EQ(::mkfifo(path(name).c_str(), 0600), 0); }
+
+  /// Kills a run as soon as the last line of the table begins so, and another one, if given, like `earlier`.
+  void kill_at(const std::string& begin, const std::string& earlier = "") const {
     test::Tool tool(batch_call({"list.txt", "-o", "out"}));
     for (int i = 0; i < 6000 && tool.running(); ++i) {
       const std::string table = exists("out/batch.csv") ? bytes_of("out/batch.csv") : "";
-      const std::size_t line = table.rfind("\n" + last + ",started,");
-      if (line != std::string::npos && table.find('\n', line + 1) == table.size() - 1) return tool.send(SIGKILL);
+      const std::size_t line = table.rfind("\n" + begin);
+      const bool is_last = line != std::string::npos && table.find('\n', line + 1) == table.size() - 1;
+      if (is_last && table.find("\n" + earlier) != std::string::npos) return tool.send(SIGKILL);
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
-    FAIL() << last << " is not begun: " << bytes_of("out/batch.csv");
-  };
-  kill_when("p.obj");
-  kill_when("q.obj");  // in/0.obj before it
+    FAIL() << begin << " is not there: " << bytes_of("out/batch.csv");
+  }
+};
+
+TEST_F(BatchAtWork, AMeshThatEndsEveryRunComesLast) {
+  for (const char* const mesh : {"in/0.obj", "in/1.obj"}) write_box(mesh, 0.5);
+  for (const char* const pipe : {"p.obj", "q.obj"}) make_pipe(pipe);
+  write("list.txt", "p.obj\nin/0.obj\nq.obj\nin/1.obj\n");
+  kill_at("p.obj,started,");
+  kill_at("q.obj,started,");  // in/0.obj before it
   EXPECT_THAT(states(), ElementsAre(Pair("in/0.obj", "done"), Pair("p.obj", "started"), Pair("q.obj", "started")));
   std::filesystem::remove(path("q.obj"));
   write_box("q.obj", 0.5);
-  kill_when("p.obj");  // in/1.obj before it, and q.obj after it: its run was a later one
+  kill_at("p.obj,started,");  // in/1.obj before it, and q.obj after it: its run was a later one
   EXPECT_THAT(states(), ElementsAre(Pair("in/0.obj", "done"), Pair("in/1.obj", "done"), Pair("p.obj", "started"),
                                     Pair("q.obj", "started")));
   std::filesystem::remove(path("p.obj"));
@@ -226,6 +235,41 @@ TEST_F(BatchKills, AMeshThatEndsEveryRunComesLast) {
   EXPECT_EQ(last.exit_code, 0) << last.err;
   EXPECT_THAT(last.err, HasSubstr("2 done, 2 done before"));
   EXPECT_LT(last.err.find("q.obj: "), last.err.find("p.obj: "));  // p.obj was begun once more since
+}
+
+// A mesh was done, and its file ends the process now that it is read again.
+TEST_F(BatchAtWork, ADoneMeshWhoseFileEndsTheRunIsDoneNoMore) {
+  for (const char* const mesh : {"p.obj", "q.obj"}) write_box(mesh, 0.5);
+  write("one.txt", "p.obj\n");
+  ASSERT_EQ(batch({"one.txt", "-o", "out"}).exit_code, 0);
+  const std::string before = bytes_of("out/p.obj.medial.ply");
+  const auto time = time_of("out/p.obj.medial.ply");
+  const BatchRow done = rows().at(0);
+  std::filesystem::rename(path("p.obj"), path("kept"));
+  make_pipe("p.obj");
+  write("list.txt", "p.obj\nq.obj\n");
+  kill_at("p.obj,reading,");
+  BatchRow reading = done;  // the file may be what it was
+  reading[BatchColumn::kState] = kBatchReading;
+  EXPECT_EQ(rows().at(0), reading);
+  kill_at("p.obj,reading,", "q.obj,done,");  // it comes last
+  EXPECT_THAT(states(), ElementsAre(Pair("p.obj", "reading"), Pair("q.obj", "done")));
+  EXPECT_EQ(bytes_of("out/p.obj.medial.ply"), before);
+  // The old file is back: nothing is lost.
+  std::filesystem::rename(path("kept"), path("p.obj"));
+  const ToolResult back = batch({"list.txt", "-o", "out"});
+  EXPECT_THAT(back.err, HasSubstr("0 done, 2 done before"));
+  EXPECT_EQ(rows().at(0), done);
+  EXPECT_EQ(time_of("out/p.obj.medial.ply"), time);
+  // Another file.
+  std::filesystem::remove(path("p.obj"));
+  make_pipe("p.obj");
+  kill_at("p.obj,reading,");
+  std::filesystem::remove(path("p.obj"));
+  write_box("p.obj", 0.6);
+  const ToolResult other = batch({"list.txt", "-o", "out"});
+  EXPECT_THAT(other.err, HasSubstr("1 done, 1 done before"));
+  EXPECT_NE(bytes_of("out/p.obj.medial.ply"), before);
 }
 
 }  // namespace

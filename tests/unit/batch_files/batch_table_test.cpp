@@ -68,6 +68,23 @@ TEST(BatchTable, AMeshThatIsBegunIsNotDone) {
   EXPECT_FALSE(read.value().rows[0].is_done());
 }
 
+TEST(BatchTable, AMeshThatIsReadAgainHasItsResultsAndIsAtWork) {
+  const BatchRow done = batch_row("a", kBatchDone);
+  BatchRow reading = done;
+  reading[BatchColumn::kState] = kBatchReading;
+  const Result<BatchTable> read =
+      decode_batch_table(batch_table_header() + encode_batch_row(done) + encode_batch_row(reading));
+  ASSERT_TRUE(read.ok());
+  EXPECT_TRUE(read.value().damaged_lines.empty());
+  ASSERT_EQ(read.value().rows.size(), 1u);
+  const BatchRow& row = read.value().rows[0];
+  EXPECT_EQ(row, reading);
+  EXPECT_TRUE(row.has_results() && row.is_at_work() && !row.is_done());
+  EXPECT_TRUE(done.has_results() && !done.is_at_work());
+  EXPECT_FALSE(batch_row("a", kBatchStarted).has_results());
+  EXPECT_FALSE(batch_row("a", kBatchFailed).has_results() || batch_row("a", kBatchFailed).is_at_work());
+}
+
 TEST(BatchTable, DamagedLinesAreLeftOutAndTheirMeshIsNotDone) {
   const std::string row = encode_batch_row(batch_row("a", kBatchDone));
   for (const auto& [wrong, has_name] : {std::pair(std::string("a,done\n"), true),
