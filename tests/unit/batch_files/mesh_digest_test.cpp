@@ -62,12 +62,12 @@ TEST(MeshDigest, IsThePolynomialAtBothPlaces) {
     words.push_back(static_cast<std::uint32_t>(number));
     words.push_back(static_cast<std::uint32_t>(number >> 32));
   };
-  for (const std::uint64_t count : {2, 1}) add(count);
+  for (const std::uint64_t count : {2u, 1u}) add(count);
   for (const Point& vertex : mesh.vertices) {
     for (const double coordinate : vertex) add(std::bit_cast<std::uint64_t>(coordinate));
   }
   for (const std::uint32_t corner : mesh.triangles[0]) words.push_back(corner);
-  for (const std::uint64_t count : {5, 0}) add(count);
+  for (const std::uint64_t count : {5u, 0u}) add(count);
   std::string expected;
   for (const std::uint64_t place : {0x1e3779b97f4a7c15ull, 0x043f6a8885a308d3ull}) {
     std::uint64_t value = 1;
