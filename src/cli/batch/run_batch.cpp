@@ -325,14 +325,12 @@ class BatchRun {
     for (const BatchRow& row : rows) {
       const std::string& name = row[BatchColumn::kName];
       const Options of_mesh = options_of_mesh(options_.each, "", name);
-      const std::vector<std::string> files = paths_of_results(name, row[BatchColumn::kFiles]);
-      const auto of_row = [&](const std::string& file) { return std::ranges::find(files, file) != files.end(); };
-      BatchCard card = {&row, "", ""};
-      if (of_row(of_mesh.picture)) card.picture = of_mesh.picture;
-      if (of_row(of_mesh.output)) card.points = of_mesh.output;
+      BatchCard card = {&row, "", paths_of_results(name, row[BatchColumn::kFiles])};
+      if (std::ranges::find(card.files, of_mesh.picture) != card.files.end()) card.picture = of_mesh.picture;
       cards.push_back(std::move(card));
     }
-    const OutputFile page = {folder_.page_path(), encode_batch_page(cards)};
+    const OutputFile page = {folder_.page_path(),
+                             encode_batch_page(cards, fs::path(folder_.table_path()).filename().string())};
     return write_files({&page, 1});
   }
 

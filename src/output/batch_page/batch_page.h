@@ -3,19 +3,21 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "output/batch_files/batch_table.h"
 
 namespace medial_vk {
 
+/// Paths are relative to the folder of the page.
 struct BatchCard {
   const BatchRow* row = nullptr;
-  std::string picture;  ///< Its path from the folder of the page; empty: there is none.
-  std::string points;   ///< As `picture`: the file of the medial points.
+  std::string picture;             ///< Empty: there is none.
+  std::vector<std::string> files;  ///< The name of the mesh, a dot and more.
 };
 
-/// One HTML file, which loads the pictures beside it as they come into view, and nothing else. Failed meshes come
-/// first.
-std::string encode_batch_page(std::span<const BatchCard> cards);
+/// One HTML file, which loads the pictures beside it as they come into view, and nothing else. It names the file of the
+/// table, and all files of each mesh. Failed meshes come first.
+std::string encode_batch_page(std::span<const BatchCard> cards, const std::string& table);
 
 }  // namespace medial_vk

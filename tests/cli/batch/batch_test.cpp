@@ -240,7 +240,9 @@ TEST_F(BatchTest, ThePageShowsEveryMesh) {
   EXPECT_THAT(page, HasSubstr("3 meshes, 1 failed"));
   EXPECT_THAT(page, HasSubstr("src=\"./a.obj.picture.png\""));
   EXPECT_THAT(page, HasSubstr("src=\"./50%25%20%3Cb%3E%20%22%26%22.obj.picture.png\""));
-  EXPECT_THAT(page, HasSubstr(">50% &lt;b> \"&amp;\".obj</a>"));
+  EXPECT_THAT(page, HasSubstr("<h2>50% &lt;b> \"&amp;\".obj</h2>"));
+  EXPECT_THAT(page, HasSubstr("<a href=\"./50%25%20%3Cb%3E%20%22%26%22.obj.medial.ply\">medial.ply</a>"));
+  EXPECT_THAT(page, HasSubstr("<a href=\"./batch.csv\">batch.csv</a>"));
   EXPECT_THAT(page, HasSubstr("alt=\"50% &lt;b> &quot;&amp;&quot;.obj\""));
   EXPECT_THAT(page, Not(HasSubstr("broken.obj.picture")));
   EXPECT_THAT(page, HasSubstr("<dt>volume</dt><dd>0.4</dd>"));
@@ -253,6 +255,25 @@ TEST_F(BatchTest, ThePageShowsEveryMesh) {
   EXPECT_EQ(batch({"in", "-o", "out", "--html"}).exit_code, 9);
   EXPECT_EQ(bytes_of("out/batch.html"), page);
   EXPECT_EQ(time_of("out/a.obj.picture.png"), before);
+}
+
+TEST_F(BatchTest, ThePageShowsWhatWasMeasured) {
+  write_box("in/a.obj", 0.5);
+  const auto page_with = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"in", "-o", "out", "--html"});
+    const ToolResult result = batch(options);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return bytes_of("out/batch.html");
+  };
+  const std::string plain = page_with({});
+  EXPECT_THAT(plain, HasSubstr("<p>1 mesh, 0 failed."));
+  EXPECT_THAT(plain, Not(HasSubstr("least wall")));
+  EXPECT_THAT(plain, Not(HasSubstr("median thickness")));
+  const std::string measured = page_with({"--least-wall", "--thickness", "--report", ".json"});
+  EXPECT_THAT(measured, testing::ContainsRegex("<dt>least wall</dt><dd>0[.]49[0-9]* to 0[.]5</dd>"));
+  EXPECT_THAT(measured, testing::ContainsRegex("<dt>median thickness</dt><dd>0[.][0-9]* to 0[.][0-9]*</dd>"));
+  EXPECT_THAT(measured, HasSubstr("<a href=\"./a.obj.report.json\">report.json</a>"));
+  EXPECT_THAT(page_with({"--min-wall", "0.1"}), HasSubstr("<dt>least wall, or demand</dt><dd>0."));
 }
 
 }  // namespace
