@@ -1,0 +1,153 @@
+"""Medial spheres of triangle meshes, with proofs: spheres and sheets, sphere approximations, unions of balls, distances
+and collisions, balls that follow a deforming mesh, thickness and curvature.
+
+    >>> import medial_vk
+    >>> found = medial_vk.analyse(medial_vk.read_mesh("part.stl"), resolution=80)
+    >>> found.spheres.centres, found.spheres.radii
+
+Lengths are in units of the mesh, angles in radians. Meshes and results never change; calls release the interpreter's
+lock, stop at Ctrl-C, and give the same bytes for the same input on the same device. The exceptions are in
+``medial_vk.errors``. The method is that of S. Stolpner, *Medial Spheres for Shape Representation*, 2011.
+"""
+
+from __future__ import annotations
+
+from . import errors
+from ._analysis import (
+    Analysis,
+    Certificate,
+    MedialMesh,
+    MedialSpheres,
+    SheetRemoval,
+    Sheets,
+    Significance,
+    Topology,
+    UndecidedVoxels,
+    VoxelGrid,
+    analyse,
+)
+from ._balls import Balls
+from ._boundary import (
+    CURVATURE_STATES,
+    THICKNESS_KINDS,
+    BallCurvature,
+    Curvature,
+    LeastWall,
+    Thickness,
+    WallBall,
+    curvature,
+    least_wall,
+    thickness,
+)
+from ._context import Context, Device, default_context, list_devices
+from ._distances import (
+    VERDICTS,
+    Body,
+    DistanceBounds,
+    Distances,
+    FirstContact,
+    Penetration,
+    collide,
+    distance_bounds,
+    distances,
+    first_contact,
+    penetration,
+    rigid_pose,
+)
+from ._following import (
+    FOLLOW_ORIGINS,
+    FOLLOW_STATES,
+    CoverFollower,
+    CoverFollowMeasures,
+    FollowedBalls,
+    Follower,
+    FollowMeasures,
+)
+from ._mesh import ClosestPoints, Mesh, MeshReport, read_mesh
+from ._native import VERSION as __version__
+from ._page import Page
+from ._spheres import (
+    CoverProof,
+    EnvelopeDistances,
+    InsideProof,
+    SphereFit,
+    SphereFitMetrics,
+    SphereMeasures,
+    SphereProofs,
+    VolumeError,
+    fit_spheres,
+    measure_gap,
+    prove_spheres,
+)
+from ._unions import BallUnion, DeviceBallUnion, DualComplex, measure_union, measure_union_on_device
+
+__all__ = [
+    "Analysis",
+    "BallCurvature",
+    "BallUnion",
+    "Balls",
+    "Body",
+    "CURVATURE_STATES",
+    "Certificate",
+    "ClosestPoints",
+    "Context",
+    "CoverFollowMeasures",
+    "CoverFollower",
+    "CoverProof",
+    "Curvature",
+    "Device",
+    "DeviceBallUnion",
+    "DistanceBounds",
+    "Distances",
+    "DualComplex",
+    "EnvelopeDistances",
+    "FOLLOW_ORIGINS",
+    "FOLLOW_STATES",
+    "FirstContact",
+    "FollowMeasures",
+    "FollowedBalls",
+    "Follower",
+    "InsideProof",
+    "LeastWall",
+    "MedialMesh",
+    "MedialSpheres",
+    "Mesh",
+    "MeshReport",
+    "Page",
+    "Penetration",
+    "SheetRemoval",
+    "Sheets",
+    "Significance",
+    "SphereFit",
+    "SphereFitMetrics",
+    "SphereMeasures",
+    "SphereProofs",
+    "THICKNESS_KINDS",
+    "Thickness",
+    "Topology",
+    "UndecidedVoxels",
+    "VERDICTS",
+    "VolumeError",
+    "VoxelGrid",
+    "WallBall",
+    "__version__",
+    "analyse",
+    "collide",
+    "curvature",
+    "default_context",
+    "distance_bounds",
+    "distances",
+    "errors",
+    "first_contact",
+    "fit_spheres",
+    "least_wall",
+    "list_devices",
+    "measure_gap",
+    "measure_union",
+    "measure_union_on_device",
+    "penetration",
+    "prove_spheres",
+    "read_mesh",
+    "rigid_pose",
+    "thickness",
+]

@@ -1,0 +1,221 @@
+"""A solid approximated by balls, with a proved contract."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from . import _native
+from ._balls import Balls, as_arrays
+from ._context import Context, native_context
+from ._mesh import as_mesh
+from ._progress import shown
+from ._results import Result
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from ._balls import BallsLike
+    from ._mesh import MeshLike
+    from ._progress import Progress
+
+
+class InsideProof(Result):
+    """The proof that every centre is inside, and every radius at most the exact distance to the boundary."""
+
+    tested: int
+    failed: int
+    first_failure: int  #: Index of a ball, if any failed.
+    greatest_excess: float  #: Of a radius over the distance, in units of the mesh.
+    proved: bool
+
+
+class CoverProof(Result):
+    """The proof that the balls hold every triangle, and that no vertex of their envelope lies in the solid."""
+
+    triangles: int
+    uncovered: int  #: Triangles with a point in no ball.
+    undecided: int  #: Triangles for which neither is known.
+    first_uncovered: NDArray[np.float64]  #: A point where the proof failed, shape (3,).
+    vertices: int  #: Of the envelope.
+    inside: int  #: Of these: in the solid, or too near its boundary to decide.
+    first_inside: NDArray[np.float64]  #: The first of them, shape (3,).
+    closed: bool  #: False: only the boundary is proved to be covered.
+    surface_proved: bool
+    proved: bool
+
+
+class VolumeError(Result):
+    """Volumes in cubed units of the mesh."""
+
+    solid: float
+    balls: float  #: Of their union.
+    uncovered: float  #: Of the solid outside the balls.
+    outside: float  #: Of the balls outside the solid.
+    standard_error: float  #: Of the last two, if they are estimates; 0: they are exact.
+    normalized: float  #: Their sum over the volume of the solid.
+
+
+class EnvelopeDistances(Result):
+    """Suprema of distances as proved intervals, in units of the mesh."""
+
+    solid_to_balls: tuple[float, float]
+    balls_to_solid: tuple[float, float]
+    boundary_to_balls: tuple[float, float]  #: The greatest gap.
+    boundary_to_envelope: tuple[float, float]
+    envelope_to_boundary: tuple[float, float]
+
+
+class SphereFitMetrics(Result):
+    """Measures with the names and definitions of cuRobo's; lengths in units of the mesh."""
+
+    num_spheres: int
+    coverage: float
+    protrusion: float
+    protrusion_dist_mean: float
+    protrusion_dist_p95: float
+    surface_gap_mean: float
+    surface_gap_p95: float
+    max_uncovered_gap: float
+    volume_ratio: float
+
+
+class SphereMeasures(Result):
+    """The quality of a set of balls as an approximation of a solid."""
+
+    diagonal: float  #: Of the solid's box.
+    inside: InsideProof
+    cover: CoverProof
+    volume: VolumeError
+    distances: EnvelopeDistances
+    metrics: SphereFitMetrics
+
+
+class SphereFit(Result):
+    """The result of ``fit_spheres()``."""
+
+    balls: Balls  #: The last of ``levels``; with contract "inside", every first part of it is a good set of its size.
+    levels: list[Balls]  #: The smallest set first; one, unless ``levels`` was requested.
+    reach: list[tuple[float, float, float]]  #: By level: mean, least and greatest distance by which balls reach out.
+    measures: SphereMeasures  #: Of ``balls``; with ``balls_only`` the proof alone.
+    solid_volume: float | None  #: If the mesh encloses one cleanly.
+
+    @property
+    def centres(self) -> NDArray[np.float64]:
+        """Of ``balls``, shape (n, 3)."""
+        return self.balls.centres
+
+    @property
+    def radii(self) -> NDArray[np.float64]:
+        """Of ``balls``, shape (n,)."""
+        return self.balls.radii
+
+    def __len__(self) -> int:
+        return len(self.balls)
+
+    def plot(self, ax: Any = None, *, colour: Any = None, mesh: Any = None) -> Any:
+        """Draws the balls with matplotlib, and the edges of ``mesh`` around them; returns the axes."""
+        return self.balls.plot(ax, colour=colour, mesh=mesh)
+
+
+class SphereProofs(Result):
+    """The result of ``prove_spheres()``."""
+
+    inside: InsideProof
+    cover: CoverProof
+
+
+def fit_spheres(
+    mesh: MeshLike,
+    count: int = 0,
+    *,
+    contract: str = "inside",
+    error: float = 0.0,
+    max_gap: float = 0.0,
+    method: str = "best",
+    resolution: int = 0,
+    object_angle: float = 0.6,
+    levels: bool = False,
+    balls_only: bool = False,
+    for_distances: bool = False,
+    threads: int = 0,
+    context: Context | None = None,
+    progress: Progress = None,
+) -> SphereFit:
+    """Fits balls to the solid that a mesh encloses, proves their contract in double precision, and measures them. All
+    given goals are met, with as few balls as the method finds.
+
+    Args:
+        mesh: A ``Mesh``, or an object that ``Mesh()`` accepts.
+        count: Greatest number of balls; 0: as many as the other goals require.
+        contract: "inside" (no ball reaches out of the solid), "cover" (no point of the solid is outside the balls) or
+            "balanced" (no claim; the volume between balls and solid is small).
+        error: Greatest volume error as a share of the solid's volume, in [0, 1); 0: no such goal.
+        max_gap: Greatest distance from the boundary to the balls, in units of the mesh; 0: no such goal.
+        method: "best", or "source": one ball per voxel (Section 7.3.2 of the source).
+        resolution: Of the search for candidates; 0: derived from the count.
+        object_angle: Of method "source", radians.
+        levels: Also return sets of half, a quarter ... of the balls.
+        balls_only: Only the balls and the proof of their contract, for a fraction of the time.
+        for_distances: Choose balls for tight bounds of distances.
+        threads: Of the host, 0: one per core. The result does not depend on it.
+        context: Where candidates are computed; None: ``default_context()``.
+        progress: A function of the stage's name and its share, or True for a bar.
+
+    Raises:
+        UsageError: No goal, a goal out of range, or one that is not reached.
+        InvalidMeshError: No ball fits.
+        NoDeviceError, OutOfMemoryError: As their names say.
+    """
+    options = {
+        "contract": contract,
+        "method": method,
+        "count": count,
+        "error": error,
+        "max_gap": max_gap,
+        "resolution": resolution,
+        "object_angle": object_angle,
+        "levels": levels,
+        "balls_only": balls_only,
+        "for_distances": for_distances,
+        "threads": threads,
+    }
+    with shown(progress) as callback:
+        values = _native.fit_spheres(as_mesh(mesh)._native, native_context(context), options, callback)
+    sets = [Balls(**level) for level in values["levels"]]
+    return SphereFit(
+        balls=sets[-1],
+        levels=sets,
+        reach=values["reach"],
+        measures=_measures_of(values["measures"]),
+        solid_volume=values["solid_volume"],
+    )
+
+
+def prove_spheres(
+    mesh: MeshLike, inside: BallsLike | None = None, cover: BallsLike | None = None, *, threads: int = 0
+) -> SphereProofs:
+    """Tests that every ball of ``inside`` lies in the solid, and that the balls of ``cover`` hold all of it, in double
+    precision and from the numbers alone: for balls of any origin.
+
+    Raises:
+        UsageError: A ball whose numbers are not finite or beyond 1e18.
+    """
+    values = _native.prove_spheres(as_mesh(mesh)._native, *as_arrays(inside), *as_arrays(cover), threads)
+    return SphereProofs(inside=InsideProof(**values["inside"]), cover=CoverProof(**values["cover"]))
+
+
+def measure_gap(mesh: MeshLike, balls: BallsLike, *, threads: int = 0) -> tuple[float, float]:
+    """Bounds of the greatest distance from a point of the boundary to the balls, in units of the mesh."""
+    return _native.measure_gap(as_mesh(mesh)._native, *as_arrays(balls), threads)
+
+
+def _measures_of(values: dict[str, Any]) -> SphereMeasures:
+    return SphereMeasures(
+        diagonal=values["diagonal"],
+        inside=InsideProof(**values["inside"]),
+        cover=CoverProof(**values["cover"]),
+        volume=VolumeError(**values["volume"]),
+        distances=EnvelopeDistances(**values["distances"]),
+        metrics=SphereFitMetrics(**values["metrics"]),
+    )

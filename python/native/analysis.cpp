@@ -1,0 +1,267 @@
+#include "medial_vk/analysis.h"
+
+#include <pybind11/stl.h>
+
+#include "medial_vk/version.h"
+#include "native/arrays.h"
+#include "native/calls.h"
+#include "native/handles.h"
+#include "native/options.h"
+#include "output/medial_ply/medial_file.h"
+#include "output/page/page.h"
+
+namespace medial_vk::python {
+namespace {
+
+namespace py = pybind11;
+
+/// An analysis, and all that its files say of how it was made.
+struct AnalysisHandle {
+  IndexedMesh mesh;
+  AnalysisOptions options;
+  DeviceDescription device;
+  Analysis result;
+};
+
+template <class T>
+using Choice = std::pair<std::string_view, T>;
+
+void read_sheet_options(Options& options, AnalysisOptions& made) {
+  bool sheets = true;
+  options.read("sheets", sheets);
+  SheetOptions of_sheets;
+  options.read("sheet_angle", of_sheets.angle);
+  options.read("sheet_crease", of_sheets.crease);
+  options.read("sheet_border", of_sheets.border);
+  options.read("sheet_width", of_sheets.width);
+  options.read("absorb_fragments", of_sheets.absorb_fragments);
+  if (sheets) made.sheets = of_sheets;
+}
+
+AnalysisOptions analysis_options(py::dict values) {
+  AnalysisOptions made;
+  Options options(std::move(values));
+  ExtractionOptions& search = made.extraction;
+  options.read("mode", search.mode,
+               std::array{Choice<Mode>{"certified", Mode::kCertified}, Choice<Mode>{"thesis", Mode::kThesis}});
+  options.read("resolution", search.resolution);
+  options.read("object_angle", search.object_angle);
+  options.read("radius", search.radius);
+  options.read("deep_angle", search.deep_angle);
+  options.read("epsilon", search.epsilon);
+  options.read("extra_levels", search.extra_levels);
+  options.read("memory_budget", search.memory_budget);
+  read_sheet_options(options, made);
+  options.read("simplify", made.simplify);
+  options.read("volumes", made.volumes);
+  options.read("keep_volume", made.keep_volume);
+  options.read("keep_topology", made.keep_topology);
+  options.read("removal_orders", made.removal_orders);
+  options.read("medial_mesh", made.medial_mesh);
+  options.read("threads", made.threads);
+  options.finish();
+  if (made.sheets && !(made.volumes || made.keep_volume > 0 || made.removal_orders)) made.sheets->areas = false;
+  return made;
+}
+
+std::shared_ptr<AnalysisHandle> analyse_mesh(const MeshHandle& mesh, const ContextHandle& context, py::dict values,
+                                             const py::object& progress) {
+  const AnalysisOptions options = analysis_options(std::move(values));
+  const auto call = std::make_shared<Call>();
+  const StageProgress on_progress = stage_progress(call, progress);
+  Analysis result = value_of(run(call, [&] {
+    return context->use(call->token(), [&](Context& device) {
+      return analyse(mesh.mesh, options, device, on_progress, call->token());
+    });
+  }));
+  return std::make_shared<AnalysisHandle>(AnalysisHandle{mesh.mesh, options, context->device(), std::move(result)});
+}
+
+const char* kind_name(UndecidedKind kind) {
+  switch (kind) {
+    case UndecidedKind::kNearFace:
+      return "near face";
+    case UndecidedKind::kNearAngle:
+      return "near angle";
+    case UndecidedKind::kBoundary:
+      return "boundary";
+    case UndecidedKind::kOther:
+      break;
+  }
+  return "other";
+}
+
+py::dict spheres_dict(const std::vector<MedialSphere>& spheres) {
+  py::dict out;
+  out["centres"] = column(spheres, [](const MedialSphere& sphere) { return sphere.centre; });
+  out["radii"] = column(spheres, [](const MedialSphere& sphere) { return sphere.radius; });
+  out["spokes_a"] = column(spheres, [](const MedialSphere& sphere) { return sphere.spoke_a; });
+  out["spokes_b"] = column(spheres, [](const MedialSphere& sphere) { return sphere.spoke_b; });
+  out["object_angles"] = column(spheres, [](const MedialSphere& sphere) { return sphere.object_angle; });
+  out["flux"] = column(spheres, [](const MedialSphere& sphere) { return sphere.flux; });
+  out["sheets"] = column(spheres, [](const MedialSphere& sphere) { return sphere.sheet; });
+  out["voxels"] = column(spheres, [](const MedialSphere& sphere) { return sphere.voxel; });
+  return out;
+}
+
+py::dict undecided_dict(const std::vector<UndecidedVoxel>& undecided) {
+  py::list kinds;
+  for (const UndecidedVoxel& voxel : undecided) kinds.append(kind_name(voxel.kind));
+  py::dict out;
+  out["voxels"] = column(undecided, [](const UndecidedVoxel& voxel) { return voxel.voxel; });
+  out["kinds"] = std::move(kinds);
+  out["widths"] = column(undecided, [](const UndecidedVoxel& voxel) { return voxel.width; });
+  return out;
+}
+
+py::dict grid_dict(const VoxelGrid& grid) {
+  py::dict out;
+  out["origin"] = array_of(grid.origin);
+  out["voxel_size"] = grid.voxel_size;
+  out["size"] = py::make_tuple(grid.size[0], grid.size[1], grid.size[2]);
+  return out;
+}
+
+py::dict betti_dict(const BettiNumbers& betti) {
+  py::dict out;
+  out["components"] = betti.components;
+  out["tunnels"] = betti.tunnels;
+  out["cavities"] = betti.cavities;
+  return out;
+}
+
+py::object sheets_dict(const std::optional<Sheets>& sheets) {
+  if (!sheets) return py::none();
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  py::dict out;
+  out["points"] = column(sheets->sheets, [](const Sheet& sheet) { return sheet.points; });
+  out["areas"] = column(sheets->sheets, [](const Sheet& sheet) { return sheet.area; });
+  out["mean_radii"] = column(sheets->sheets, [](const Sheet& sheet) { return sheet.mean_radius; });
+  out["mean_object_angles"] = column(sheets->sheets, [](const Sheet& sheet) { return sheet.mean_object_angle; });
+  out["significance"] =
+      column(sheets->sheets, [none](const Sheet& sheet) { return sheet.significance.value_or(none); });
+  out["is_seam"] = column(sheets->marks,
+                          [](std::uint8_t marks) { return (marks & kSeam) != 0 ? std::uint8_t{1} : std::uint8_t{0}; });
+  out["is_rim"] =
+      column(sheets->marks, [](std::uint8_t marks) { return (marks & kRim) != 0 ? std::uint8_t{1} : std::uint8_t{0}; });
+  return out;
+}
+
+py::object significance_dict(const std::optional<Significance>& significance) {
+  if (!significance) return py::none();
+  py::dict out;
+  out["volume"] = significance->volume;
+  out["area"] = significance->area;
+  out["topology"] = betti_dict(significance->topology);
+  out["of_ball"] = array_of(std::vector<double>(significance->of_ball));
+  out["of_sheet"] = array_of(std::vector<double>(significance->of_sheet));
+  out["areas"] = array_of(std::vector<double>(significance->areas));
+  return out;
+}
+
+py::object removal_dict(const std::optional<SheetRemoval>& removal) {
+  if (!removal) return py::none();
+  py::dict out;
+  out["removed"] = array_of(std::vector<std::uint32_t>(removal->sheets));
+  out["volume_left"] = array_of(std::vector<double>(removal->volume_left));
+  out["kept"] = array_of(std::vector<std::uint32_t>(removal->kept));
+  return out;
+}
+
+py::object medial_mesh_dict(const std::optional<MedialMesh>& mesh) {
+  if (!mesh) return py::none();
+  py::dict out;
+  out["triangles"] = array_of(std::vector<Triangle>(mesh->triangles));
+  out["edges"] = array_of(std::vector<MeshEdge>(mesh->edges));
+  out["topology"] = betti_dict(mesh->topology.betti);
+  out["euler_characteristic"] = mesh->topology.euler_characteristic;
+  return out;
+}
+
+py::dict results(const AnalysisHandle& handle) {
+  const Analysis& result = handle.result;
+  py::dict times;
+  for (const StageTime& time : result.measurements.host_times) times[py::str(time.stage)] = time.seconds;
+  py::dict out;
+  out["grid"] = grid_dict(result.grid);
+  out["spheres"] = spheres_dict(result.spheres);
+  out["undecided"] = undecided_dict(result.undecided);
+  out["certificate"] = py::make_tuple(result.certificate.passed, result.certificate.rejected);
+  out["simplified"] = result.simplified;
+  out["sheets"] = sheets_dict(result.sheets);
+  out["significance"] = significance_dict(result.significance);
+  out["by_significance"] = removal_dict(result.by_significance);
+  out["keeping_topology"] = removal_dict(result.keeping_topology);
+  out["removal"] = removal_dict(result.removal);
+  out["medial_mesh"] = medial_mesh_dict(result.medial_mesh);
+  out["euler_characteristic"] =
+      result.euler_characteristic ? py::object(py::int_(*result.euler_characteristic)) : py::object(py::none());
+  out["seconds"] = std::move(times);
+  return out;
+}
+
+MedialHeader header_of(const AnalysisHandle& handle) {
+  return make_header(handle.result.grid, handle.options.extraction, handle.mesh.longest_side());
+}
+
+py::bytes encode(const AnalysisHandle& handle, const std::string& format, bool ascii) {
+  const std::string bytes = run_here([&] {
+    return format == "csv" ? encode_csv(header_of(handle), handle.result.spheres)
+                           : encode_ply(header_of(handle), handle.result.spheres, ascii);
+  });
+  return py::bytes(bytes);
+}
+
+RunRecord record_of(const AnalysisHandle& handle, const std::string& name) {
+  const Analysis& result = handle.result;
+  RunRecord record;
+  record.input = name;
+  record.options = handle.options.extraction;
+  record.simplify = handle.options.simplify;
+  record.mesh = handle.mesh.prepared().report;
+  record.longest_side = handle.mesh.longest_side();
+  record.search.lower = handle.mesh.region_lower();
+  record.search.upper = handle.mesh.region_upper();
+  record.search.longest_side = handle.mesh.longest_side();
+  record.search.inside = handle.mesh.side() == MeshSide::kInside;
+  record.search.outside = !record.search.inside;
+  record.search.margin = handle.mesh.margin();
+  record.search.inside_points = record.search.inside ? result.spheres.size() : 0;
+  record.grid = result.grid;
+  record.counters = result.measurements.counters;
+  record.undecided = result.undecided;
+  record.certify = result.certificate;
+  record.points = result.spheres.size();
+  record.simplified = result.simplified;
+  record.radii = range_of_radii(result.spheres);
+  record.object_angles = range_of_object_angles(result.spheres);
+  if (handle.options.sheets) record.sheet_options = *handle.options.sheets;
+  if (result.sheets) record.sheets = *result.sheets;
+  if (record.search.inside && result.sheets) record.search.inside_sheets = result.sheets->sheets.size();
+  record.removal = result.removal;
+  record.keep_volume = handle.options.keep_volume;
+  record.device = handle.device;
+  return record;
+}
+
+py::bytes page(const AnalysisHandle& handle, const std::string& name, const std::string& up) {
+  require(check_page_available());
+  UpAxis axis = UpAxis::kY;
+  if (up == "z") axis = UpAxis::kZ;
+  if (up == "x") axis = UpAxis::kX;
+  const std::string bytes = run_here(
+      [&] { return encode_page(handle.mesh.prepared().mesh, handle.result.spheres, record_of(handle, name), axis); });
+  return py::bytes(bytes);
+}
+
+}  // namespace
+
+void bind_analysis(py::module_& module) {
+  py::class_<AnalysisHandle, std::shared_ptr<AnalysisHandle>>(module, "Analysis")
+      .def("results", &results)
+      .def("encode", &encode)
+      .def("page", &page);
+  module.def("analyse", &analyse_mesh);
+}
+
+}  // namespace medial_vk::python

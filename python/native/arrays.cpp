@@ -1,0 +1,191 @@
+#include "native/arrays.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "native/errors.h"
+
+namespace medial_vk::python {
+namespace {
+
+namespace py = pybind11;
+
+/// The object as an array. Lists and whatever else NumPy converts are accepted; NumPy's own error is the answer where
+/// it does not.
+py::array as_array(py::handle object, const char* name) {
+  py::array array = py::array::ensure(object);
+  if (!array) {
+    PyErr_Clear();
+    fail_usage(fmt::format("`{}` is no array of numbers", name));
+  }
+  return array;
+}
+
+std::string shape_text(const py::array& array) {
+  std::string text = "(";
+  for (py::ssize_t i = 0; i < array.ndim(); ++i) text += fmt::format("{}{}", i > 0 ? ", " : "", array.shape(i));
+  return text + (array.ndim() == 1 ? ",)" : ")");
+}
+
+[[noreturn]] void fail_shape(const py::array& array, const char* name, const char* expected) {
+  fail_usage(fmt::format("`{}` has the shape {} where {} is expected", name, shape_text(array), expected));
+}
+
+/// Rows of three, of an array of the type `From`, wherever they lie in memory.
+template <class From, class To, class Convert>
+void read_rows(const py::array& array, std::vector<std::array<To, 3>>& rows, Convert convert) {
+  const auto* bytes = static_cast<const char*>(array.data());
+  const py::ssize_t step = array.strides(0), inner = array.strides(1);
+  rows.resize(static_cast<std::size_t>(array.shape(0)));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      From value;  // an array need not be aligned
+      std::memcpy(&value, bytes + static_cast<py::ssize_t>(i) * step + static_cast<py::ssize_t>(k) * inner,
+                  sizeof(From));
+      rows[i][k] = convert(value, i);
+    }
+  }
+}
+
+template <class T>
+bool has_type(const py::array& array) {
+  return py::isinstance<py::array_t<T>>(array);
+}
+
+/// An array of real numbers of another type as one of doubles.
+py::array as_doubles(const py::array& array, const char* name) {
+  const char kind = array.dtype().kind();
+  if (kind != 'f' && kind != 'i' && kind != 'u' && kind != 'b') {
+    fail_usage(fmt::format("`{}` has the type {}, not one of real numbers", name, std::string(py::str(array.dtype()))));
+  }
+  py::array doubles = py::array_t<double>::ensure(array);
+  if (!doubles) throw py::error_already_set();
+  return doubles;
+}
+
+/// An empty list counts as no rows.
+bool is_empty_list(const py::array& array) { return array.ndim() == 1 && array.size() == 0; }
+
+void require_rows_of_three(const py::array& array, const char* name) {
+  if (array.ndim() != 2 || array.shape(1) != 3) fail_shape(array, name, "(n, 3)");
+}
+
+constexpr double kRotationTolerance = 1e-12;  // of the library's precondition (proximity.h)
+
+/// The greatest difference of products of rows from those of a rotation, and of the determinant from 1.
+double distance_from_rotation(const std::array<Point, 3>& rows) {
+  double greatest = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = i; j < 3; ++j) {
+      const double product = rows[i][0] * rows[j][0] + rows[i][1] * rows[j][1] + rows[i][2] * rows[j][2];
+      const double difference = std::abs(product - (i == j ? 1 : 0));
+      if (!(difference <= greatest)) greatest = difference;  // keeps one that is no number
+    }
+  }
+  const double determinant = rows[0][0] * (rows[1][1] * rows[2][2] - rows[1][2] * rows[2][1]) -
+                             rows[0][1] * (rows[1][0] * rows[2][2] - rows[1][2] * rows[2][0]) +
+                             rows[0][2] * (rows[1][0] * rows[2][1] - rows[1][1] * rows[2][0]);
+  return determinant > 0 ? greatest : std::numeric_limits<double>::infinity();
+}
+
+Pose pose_of(const double* m, std::size_t index, const char* name) {
+  Pose pose;
+  for (std::size_t i = 0; i < 3; ++i) {
+    pose.rotation[i] = {m[4 * i], m[4 * i + 1], m[4 * i + 2]};
+    pose.shift[i] = m[4 * i + 3];
+    if (!std::isfinite(pose.shift[i])) fail_usage(fmt::format("the shift of `{}`[{}] is not finite", name, index));
+  }
+  if (!(distance_from_rotation(pose.rotation) <= kRotationTolerance)) {
+    fail_usage(fmt::format("`{}`[{}] is no rigid motion to within {:g}: rigid_pose() makes the nearest one", name,
+                           index, kRotationTolerance));
+  }
+  if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1) {
+    fail_usage(fmt::format("the last row of `{}`[{}] is not 0, 0, 0, 1", name, index));
+  }
+  return pose;
+}
+
+}  // namespace
+
+std::vector<Point> points_of(py::handle object, const char* name) {
+  py::array array = as_array(object, name);
+  std::vector<Point> points;
+  if (is_empty_list(array)) return points;
+  require_rows_of_three(array, name);
+  if (has_type<float>(array)) {
+    read_rows<float>(array, points, [](float x, std::size_t) { return double{x}; });
+    return points;
+  }
+  if (!has_type<double>(array)) array = as_doubles(array, name);
+  read_rows<double>(array, points, [](double x, std::size_t) { return x; });
+  return points;
+}
+
+Point point_of(py::handle object, const char* name) {
+  const py::array array = as_array(object, name);
+  if (array.ndim() != 1 || array.shape(0) != 3) fail_shape(array, name, "(3,)");
+  const auto doubles = py::array_t<double>(as_doubles(array, name));
+  return {doubles.at(0), doubles.at(1), doubles.at(2)};
+}
+
+std::vector<Triangle> triangles_of(py::handle object, const char* name) {
+  const py::array array = as_array(object, name);
+  std::vector<Triangle> triangles;
+  if (is_empty_list(array)) return triangles;
+  require_rows_of_three(array, name);
+  const auto index = [name](auto value, std::size_t row) {
+    if (value < 0 || static_cast<std::uint64_t>(value) > std::numeric_limits<std::uint32_t>::max()) {
+      fail_usage(fmt::format("row {} of `{}` has the value {}, which is no index", row, name, value));
+    }
+    return static_cast<std::uint32_t>(value);
+  };
+  if (has_type<std::int32_t>(array)) {
+    read_rows<std::int32_t>(array, triangles, index);
+  } else if (has_type<std::uint32_t>(array)) {
+    read_rows<std::uint32_t>(array, triangles, [](std::uint32_t value, std::size_t) { return value; });
+  } else if (has_type<std::uint64_t>(array)) {
+    read_rows<std::uint64_t>(array, triangles, index);
+  } else if (array.dtype().kind() == 'i' || array.dtype().kind() == 'u' || array.size() == 0) {
+    const py::array wide = py::array_t<std::int64_t>::ensure(array);
+    if (!wide) throw py::error_already_set();
+    read_rows<std::int64_t>(wide, triangles, index);
+  } else {
+    fail_usage(fmt::format("`{}` has the type {}, not one of integers", name, std::string(py::str(array.dtype()))));
+  }
+  return triangles;
+}
+
+std::vector<double> numbers_of(py::handle object, const char* name) {
+  const py::array array = as_array(object, name);
+  if (array.ndim() != 1) fail_shape(array, name, "(n,)");
+  const auto doubles = py::array_t<double>(as_doubles(array, name));
+  const auto view = doubles.unchecked<1>();
+  std::vector<double> numbers(static_cast<std::size_t>(view.shape(0)));
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = view(static_cast<py::ssize_t>(i));
+  return numbers;
+}
+
+std::vector<Ball> balls_of(py::handle centres, py::handle radii) {
+  const std::vector<Point> points = points_of(centres, "centres");
+  const std::vector<double> lengths = numbers_of(radii, "radii");
+  if (points.size() != lengths.size()) {
+    fail_usage(fmt::format("there are {} `centres` and {} `radii`", points.size(), lengths.size()));
+  }
+  std::vector<Ball> balls(points.size());
+  for (std::size_t i = 0; i < balls.size(); ++i) balls[i] = {points[i], lengths[i]};
+  return balls;
+}
+
+std::vector<Pose> poses_of(py::handle object, const char* name) {
+  const py::array array = as_array(object, name);
+  if (array.ndim() != 3 || array.shape(1) != 4 || array.shape(2) != 4) fail_shape(array, name, "(n, 4, 4)");
+  const auto doubles = py::array_t<double, py::array::c_style | py::array::forcecast>(as_doubles(array, name));
+  std::vector<Pose> poses(static_cast<std::size_t>(doubles.shape(0)));
+  for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = pose_of(doubles.data() + 16 * i, i, name);
+  return poses;
+}
+
+}  // namespace medial_vk::python

@@ -1,0 +1,230 @@
+#include <pybind11/stl.h>
+
+#include "medial_vk/collisions.h"
+#include "medial_vk/penetration.h"
+#include "medial_vk/proximity.h"
+#include "native/arrays.h"
+#include "native/calls.h"
+#include "native/handles.h"
+#include "native/options.h"
+
+namespace medial_vk::python {
+namespace {
+
+namespace py = pybind11;
+
+/// Fewer poses are answered on the calling thread: a thread of its own would take longer than the work.
+constexpr std::size_t kFewPoses = 16;
+/// Poses whose bounds take some milliseconds.
+constexpr std::size_t kBlock = 4096;
+
+std::shared_ptr<Body> body_of_mesh(const MeshHandle& mesh, py::handle inside_centres, py::handle inside_radii,
+                                   py::handle cover_centres, py::handle cover_radii, unsigned threads) {
+  const std::vector<Ball> inside = balls_of(inside_centres, inside_radii);
+  const std::vector<Ball> cover = balls_of(cover_centres, cover_radii);
+  const auto call = std::make_shared<Call>();
+  return std::make_shared<Body>(value_of(
+      run(call, [&] { return Body::create(mesh.mesh, inside, cover, {.threads = threads}, {}, call->token()); })));
+}
+
+std::shared_ptr<Body> body_of_balls(py::handle inside_centres, py::handle inside_radii, py::handle cover_centres,
+                                    py::handle cover_radii) {
+  return std::make_shared<Body>(
+      value_of(run_or_abandon([inside = balls_of(inside_centres, inside_radii),
+                               cover = balls_of(cover_centres, cover_radii)] { return Body::create(inside, cover); })));
+}
+
+py::tuple sizes(const Body& body) { return py::make_tuple(body.has_mesh(), body.inside().size(), body.cover().size()); }
+
+std::int64_t index_of(std::uint32_t index) { return index == BallPair::kNone ? -1 : std::int64_t{index}; }
+
+template <class Results>
+auto states(const Results& results) {
+  return column(results, [](const auto& result) { return static_cast<std::uint8_t>(result.collision()); });
+}
+
+py::array_t<std::int64_t> pairs(const std::vector<DistanceBounds>& results, BallPair DistanceBounds::*pair) {
+  return column(results, [pair](const DistanceBounds& result) {
+    return std::array{index_of((result.*pair).a), index_of((result.*pair).b)};
+  });
+}
+
+/// The rows of a call for one pose, which is answered on the calling thread, without arrays of one element each.
+Pose only_pose(py::handle array) {
+  const std::vector<Pose> poses = poses_of(array, "poses");
+  if (poses.size() != 1) fail_usage("one pose is expected");
+  return poses.front();
+}
+
+py::tuple pair_tuple(const BallPair& pair) { return py::make_tuple(index_of(pair.a), index_of(pair.b)); }
+
+py::dict bounds_of_one(const std::shared_ptr<Body>& a, const std::shared_ptr<Body>& b, py::handle array) {
+  const Pose pose = only_pose(array);
+  const DistanceBounds result = run_here([&] { return distance_bounds(*a, *b, pose); });
+  py::dict out;
+  out["lower"] = result.lower;
+  out["upper"] = result.upper;
+  out["verdicts"] = static_cast<int>(result.collision());
+  out["cover_pairs"] = pair_tuple(result.cover_pair);
+  out["inside_pairs"] = pair_tuple(result.inside_pair);
+  return out;
+}
+
+/// By bodies in a call of many poses: on a thread of its own, or here. The searches of bounds cannot be stopped; blocks
+/// of them are run one after the other, so that a signal waits for one block only.
+template <class Work>
+Status in_blocks(std::size_t count, std::size_t block, const Work& work) {
+  if (count <= kFewPoses) return run_here([&] { return work(std::size_t{0}, count); });
+  const auto call = std::make_shared<Call>();
+  return run(call, [&]() -> Status {
+    for (std::size_t begin = 0; begin < count; begin += block) {
+      if (call->token().stop_requested()) return Error{ErrorCode::kInterrupted, "stopped"};
+      if (Status status = work(begin, std::min(block, count - begin)); !status) return status;
+    }
+    return {};
+  });
+}
+
+py::dict bounds(const std::shared_ptr<Body>& a, const std::shared_ptr<Body>& b, py::handle array, unsigned threads) {
+  const std::vector<Pose> poses = poses_of(array, "poses");
+  std::vector<DistanceBounds> results(poses.size());
+  require(in_blocks(poses.size(), kBlock, [&](std::size_t begin, std::size_t count) -> Status {
+    distance_bounds(*a, *b, std::span(poses).subspan(begin, count), std::span(results).subspan(begin, count),
+                    {.threads = threads});
+    return {};
+  }));
+  py::dict out;
+  out["lower"] = column(results, [](const DistanceBounds& result) { return result.lower; });
+  out["upper"] = column(results, [](const DistanceBounds& result) { return result.upper; });
+  out["verdicts"] = states(results);
+  out["cover_pairs"] = pairs(results, &DistanceBounds::cover_pair);
+  out["inside_pairs"] = pairs(results, &DistanceBounds::inside_pair);
+  return out;
+}
+
+DistanceOptions distance_options(py::dict values, unsigned& threads) {
+  DistanceOptions made;
+  Options options(std::move(values));
+  options.read("tolerance", made.tolerance);
+  options.read("limit", made.limit);
+  options.read("surfaces_only", made.surfaces_only);
+  options.read("threads", threads);
+  options.finish();
+  return made;
+}
+
+py::dict exact(const std::shared_ptr<Body>& a, const std::shared_ptr<Body>& b, py::handle array, py::dict values) {
+  const std::vector<Pose> poses = poses_of(array, "poses");
+  unsigned threads = 0;
+  const DistanceOptions options = distance_options(std::move(values), threads);
+  std::vector<Distance> results(poses.size());
+  const auto call = std::make_shared<Call>();
+  require(run(call, [&] { return distances(*a, *b, poses, results, options, {.threads = threads}, call->token()); }));
+  py::dict out;
+  out["lower"] = column(results, [](const Distance& result) { return result.lower; });
+  out["upper"] = column(results, [](const Distance& result) { return result.upper; });
+  out["verdicts"] = states(results);
+  out["on_a"] = column(results, [](const Distance& result) { return result.on_a; });
+  out["on_b"] = column(results, [](const Distance& result) { return result.on_b; });
+  out["triangles"] = column(results, [](const Distance& result) {
+    return std::array{index_of(result.triangle_a), index_of(result.triangle_b)};
+  });
+  return out;
+}
+
+py::dict exact_of_one(const std::shared_ptr<Body>& a, const std::shared_ptr<Body>& b, py::handle array,
+                      py::dict values) {
+  const Pose pose = only_pose(array);
+  unsigned threads = 0;
+  const DistanceOptions options = distance_options(std::move(values), threads);
+  const Distance result = value_of(run_here([&] { return distance(*a, *b, pose, options); }));
+  py::dict out;
+  out["lower"] = result.lower;
+  out["upper"] = result.upper;
+  out["verdicts"] = static_cast<int>(result.collision());
+  out["on_a"] = array_of(result.on_a);
+  out["on_b"] = array_of(result.on_b);
+  out["triangles"] = py::make_tuple(index_of(result.triangle_a), index_of(result.triangle_b));
+  return out;
+}
+
+py::array_t<std::uint8_t> verdicts(const std::shared_ptr<Body>& a, const std::shared_ptr<Body>& b, py::handle array,
+                                   bool by_balls, unsigned threads) {
+  const std::vector<Pose> poses = poses_of(array, "poses");
+  std::vector<Collision> results(poses.size());
+  require(in_blocks(poses.size(), kBlock, [&](std::size_t begin, std::size_t count) -> Status {
+    collide_by_balls(*a, *b, std::span(poses).subspan(begin, count), std::span(results).subspan(begin, count),
+                     {.threads = threads});
+    return {};
+  }));
+  if (!by_balls) {
+    require(in_blocks(poses.size(), 64, [&](std::size_t begin, std::size_t count) -> Status {
+      for (std::size_t i = begin; i < begin + count; ++i) {
+        if (results[i] == Collision::kUndecided) results[i] = collide(*a, *b, poses[i]);
+      }
+      return {};
+    }));
+  }
+  return column(results, [](Collision verdict) { return static_cast<std::uint8_t>(verdict); });
+}
+
+py::dict depth(const std::shared_ptr<Body>& a, const std::shared_ptr<Body>& b, py::handle array, py::dict values) {
+  const std::vector<Pose> poses = poses_of(array, "pose");
+  if (poses.size() != 1) fail_usage("`pose` is not one pose");
+  PenetrationOptions made;
+  Options options(std::move(values));
+  options.read("directions", made.directions);
+  options.read("most_queries", made.most_queries);
+  options.read("volume_tolerance", made.volume_tolerance);
+  options.read("most_columns", made.most_columns);
+  options.finish();
+  const Penetration result =
+      value_of(run_or_abandon([a, b, pose = poses[0], made] { return penetration(*a, *b, pose, made); }));
+  py::dict out;
+  out["depth"] = py::make_tuple(result.depth_lower, result.depth_upper);
+  out["translation"] = array_of(result.translation);
+  out["common_volume_lower"] = result.common_volume_lower;
+  out["common_volume_of_balls"] = result.common_volume_of_balls;
+  out["deepest"] = py::make_tuple(index_of(result.deepest.a), index_of(result.deepest.b));
+  return out;
+}
+
+py::dict contact(const std::shared_ptr<Body>& a, const std::shared_ptr<Body>& b, py::handle array, py::handle pivot,
+                 py::dict values) {
+  const std::vector<Pose> ends = poses_of(array, "ends");
+  if (ends.size() != 2) fail_usage("a motion goes from one pose to another");
+  const Motion motion = {ends[0], ends[1], point_of(pivot, "pivot")};
+  ContactOptions made;
+  Options options(std::move(values));
+  options.read("clearance", made.clearance);
+  options.read("tolerance", made.tolerance);
+  options.read("surfaces_only", made.surfaces_only);
+  options.finish();
+  const auto call = std::make_shared<Call>();
+  const FirstContact result = value_of(run(call, [&] { return first_contact(*a, *b, motion, made, call->token()); }));
+  py::dict out;
+  out["free_until"] = result.free_until;
+  out["contact_at"] = result.contact_at;
+  out["state"] = static_cast<std::uint8_t>(result.collision());
+  out["distance"] = py::make_tuple(result.nearest.lower, result.nearest.upper);
+  out["on_a"] = array_of(result.nearest.on_a);
+  out["on_b"] = array_of(result.nearest.on_b);
+  return out;
+}
+
+}  // namespace
+
+void bind_distances(py::module_& module) {
+  py::class_<Body, std::shared_ptr<Body>>(module, "Body").def("sizes", &sizes);
+  module.def("body_of_mesh", &body_of_mesh);
+  module.def("body_of_balls", &body_of_balls);
+  module.def("distance_bounds", &bounds);
+  module.def("distance_bounds_of_one", &bounds_of_one);
+  module.def("distances", &exact);
+  module.def("distance_of_one", &exact_of_one);
+  module.def("collide", &verdicts);
+  module.def("penetration", &depth);
+  module.def("first_contact", &contact);
+}
+
+}  // namespace medial_vk::python

@@ -1,0 +1,172 @@
+#include <pybind11/stl.h>
+
+#include <mutex>
+
+#include "medial_vk/cover_follower.h"
+#include "medial_vk/follower.h"
+#include "native/arrays.h"
+#include "native/calls.h"
+#include "native/handles.h"
+#include "native/options.h"
+
+namespace medial_vk::python {
+namespace {
+
+namespace py = pybind11;
+
+/// A follower for threads of Python, one at a time. The lock is taken without the interpreter's.
+template <class F>
+struct SharedFollower {
+  explicit SharedFollower(F of) : follower(std::move(of)) {}
+
+  template <class Work>
+  auto use(Work work) {
+    return run_here([&] {
+      const std::lock_guard lock(mutex);
+      return work(follower);
+    });
+  }
+
+  F follower;
+  std::mutex mutex;
+};
+
+using Inside = SharedFollower<Follower>;
+using Cover = SharedFollower<CoverFollower>;
+
+FollowerOptions follower_options(py::dict values) {
+  FollowerOptions made;
+  Options options(std::move(values));
+  options.read("rule", made.rule,
+               std::array{std::pair{std::string_view("tangent"), FollowRule::kTangent},
+                          std::pair{std::string_view("published"), FollowRule::kPublished}});
+  options.read("steps", made.steps);
+  options.read("protrusion", made.protrusion);
+  options.read("shrunk", made.shrunk);
+  options.read("object_angle", made.object_angle);
+  options.read("renewed", made.renewed);
+  options.read("renewal_factor", made.renewal_factor);
+  options.read("threads", made.threads);
+  options.finish();
+  return made;
+}
+
+std::shared_ptr<Inside> make_inside(const MeshHandle& rest, py::handle centres, py::handle radii, py::dict values) {
+  const FollowerOptions options = follower_options(std::move(values));
+  return value_of(
+      run_or_abandon([rest, balls = balls_of(centres, radii), options]() -> Result<std::shared_ptr<Inside>> {
+        Result<Follower> made = Follower::create(rest.mesh, balls, options);
+        if (!made) return made.error();
+        return std::make_shared<Inside>(std::move(made).value());
+      }));
+}
+
+std::shared_ptr<Cover> make_cover(const MeshHandle& rest, py::handle centres, py::handle radii, py::dict values) {
+  CoverFollowerOptions made;
+  Options options(std::move(values));
+  options.read("surface_only", made.surface_only);
+  options.read("steps", made.steps);
+  options.read("threads", made.threads);
+  options.finish();
+  return value_of(run_or_abandon([rest, balls = balls_of(centres, radii), made]() -> Result<std::shared_ptr<Cover>> {
+    Result<CoverFollower> follower = CoverFollower::create(rest.mesh, balls, made);
+    if (!follower) return follower.error();
+    return std::make_shared<Cover>(std::move(follower).value());
+  }));
+}
+
+/// The balls of a frame, copied while no other thread can go on to the next one.
+struct Frame {
+  std::vector<Ball> balls;
+  std::vector<std::uint8_t> states, origins;
+};
+
+Frame frame_of(const Follower& follower) {
+  Frame frame;
+  frame.balls.assign(follower.balls().begin(), follower.balls().end());
+  frame.states.reserve(frame.balls.size());
+  frame.origins.reserve(frame.balls.size());
+  for (const FollowState state : follower.states()) frame.states.push_back(static_cast<std::uint8_t>(state));
+  for (const FollowOrigin origin : follower.origins()) frame.origins.push_back(static_cast<std::uint8_t>(origin));
+  return frame;
+}
+
+Frame frame_of(const CoverFollower& follower) {
+  Frame frame;
+  frame.balls.assign(follower.balls().begin(), follower.balls().end());
+  return frame;
+}
+
+py::dict frame_dict(Frame frame) {
+  py::dict out;
+  out["centres"] = column(frame.balls, [](const Ball& ball) { return ball.centre; });
+  out["radii"] = column(frame.balls, [](const Ball& ball) { return ball.radius; });
+  out["states"] = array_of(std::move(frame.states));
+  out["origins"] = array_of(std::move(frame.origins));
+  return out;
+}
+
+template <class F>
+py::dict update(SharedFollower<F>& shared, py::handle array) {
+  const std::vector<Point> vertices = points_of(array, "vertices");
+  return frame_dict(shared.use([&](F& follower) {
+    require(follower.update(vertices));
+    return frame_of(follower);
+  }));
+}
+
+template <class F>
+py::dict present(SharedFollower<F>& shared) {
+  return frame_dict(shared.use([](F& follower) { return frame_of(follower); }));
+}
+
+template <class F>
+void reset(SharedFollower<F>& shared) {
+  require(shared.use([](F& follower) { return follower.reset(); }));
+}
+
+py::dict measure_inside(Inside& shared) {
+  const FollowMeasures measures = value_of(shared.use([](Follower& follower) { return follower.measure(); }));
+  py::dict out;
+  out["solid_volume"] = measures.solid_volume;
+  out["ball_volume"] = measures.ball_volume;
+  out["outside_bound"] = measures.outside_bound;
+  return out;
+}
+
+py::dict measure_cover(Cover& shared) {
+  const CoverFollowMeasures measures = value_of(shared.use([](CoverFollower& follower) { return follower.measure(); }));
+  py::dict out;
+  out["solid_volume"] = measures.solid_volume;
+  out["ball_volume"] = measures.ball_volume;
+  return out;
+}
+
+bool covers_solid(Cover& shared) {
+  return shared.use([](CoverFollower& follower) { return follower.state() == CoverState::kSolid; });
+}
+
+void tighten(Cover& shared) {
+  require(shared.use([](CoverFollower& follower) { return follower.tighten(); }));
+}
+
+}  // namespace
+
+void bind_following(py::module_& module) {
+  py::class_<Inside, std::shared_ptr<Inside>>(module, "Follower")
+      .def("update", &update<Follower>)
+      .def("present", &present<Follower>)
+      .def("reset", &reset<Follower>)
+      .def("measure", &measure_inside);
+  py::class_<Cover, std::shared_ptr<Cover>>(module, "CoverFollower")
+      .def("update", &update<CoverFollower>)
+      .def("present", &present<CoverFollower>)
+      .def("reset", &reset<CoverFollower>)
+      .def("measure", &measure_cover)
+      .def("covers_solid", &covers_solid)
+      .def("tighten", &tighten);
+  module.def("make_follower", &make_inside);
+  module.def("make_cover_follower", &make_cover);
+}
+
+}  // namespace medial_vk::python

@@ -1,0 +1,174 @@
+#include <pybind11/stl.h>
+
+#include "input/read_mesh.h"
+#include "medial_vk/prepare.h"
+#include "medial_vk/sphere_proofs.h"
+#include "native/arrays.h"
+#include "native/calls.h"
+#include "native/handles.h"
+#include "native/options.h"
+
+namespace medial_vk::python {
+namespace {
+
+namespace py = pybind11;
+
+MeshHandle indexed(Mesh mesh, const PrepareOptions& options) {
+  return value_of(run_or_abandon([mesh = std::move(mesh), options]() mutable -> Result<MeshHandle> {
+    Result<PreparedMesh> prepared = prepare_mesh(std::move(mesh), options);
+    if (!prepared) return prepared.error();
+    Result<IndexedMesh> made = IndexedMesh::build(std::move(prepared).value(), {.threads = options.threads});
+    if (!made) return made.error();
+    return MeshHandle{std::move(made).value()};
+  }));
+}
+
+PrepareOptions prepare_options(py::dict values) {
+  PrepareOptions made;
+  Options options(std::move(values));
+  options.read("keep_inner_faces", made.keep_inner_faces);
+  options.read("keep_outer_faces", made.keep_outer_faces);
+  options.read("threads", made.threads);
+  options.finish();
+  return made;
+}
+
+MeshHandle make_mesh(py::handle vertices, py::handle triangles, py::dict options) {
+  Mesh mesh;
+  mesh.vertices = points_of(vertices, "vertices");
+  mesh.triangles = triangles_of(triangles, "triangles");
+  return indexed(std::move(mesh), prepare_options(std::move(options)));
+}
+
+MeshHandle read_file(const std::string& path, py::dict options) {
+  const PrepareOptions prepare = prepare_options(std::move(options));
+  Mesh mesh = value_of(run_or_abandon([path] { return read_mesh(path); }));
+  return indexed(std::move(mesh), prepare);
+}
+
+py::dict report_dict(const MeshReport& report) {
+  py::dict out;
+  out["vertices"] = report.vertices;
+  out["triangles"] = report.triangles;
+  out["merged_vertices"] = report.merged_vertices;
+  out["unused_vertices"] = report.unused_vertices;
+  out["degenerates_dropped"] = report.degenerates_dropped;
+  out["duplicates_dropped"] = report.duplicates_dropped;
+  out["open_edges"] = report.open_edges;
+  out["non_manifold_edges"] = report.non_manifold_edges;
+  out["inconsistent_edges"] = report.inconsistent_edges;
+  out["non_manifold_vertices"] = report.non_manifold_vertices;
+  out["components"] = report.components;
+  out["reoriented_faces"] = report.reoriented_faces;
+  out["intersecting_faces"] = report.intersecting_faces;
+  out["cut_faces"] = report.cut_faces;
+  out["inner_faces"] = report.inner_faces;
+  out["outer_faces"] = report.outer_faces;
+  out["closed"] = report.closed;
+  out["trusted_triangles"] = report.trusted_triangles;
+  out["signed_volume"] = report.signed_volume;
+  out["lower"] = array_of(report.lower);
+  out["upper"] = array_of(report.upper);
+  out["assumptions"] = report.assumptions;
+  return out;
+}
+
+/// A view of rows in the memory of a mesh, which it keeps alive and nobody can write to.
+template <class T, std::size_t n>
+py::array_t<T> rows_of(const MeshHandle& handle, std::span<const std::array<T, n>> rows) {
+  auto* kept = new IndexedMesh(handle.mesh);
+  const py::capsule owner(kept, [](void* pointer) { delete static_cast<IndexedMesh*>(pointer); });
+  const std::array<py::ssize_t, 2> shape = {static_cast<py::ssize_t>(rows.size()), static_cast<py::ssize_t>(n)};
+  py::array_t<T> array(shape, rows.empty() ? nullptr : rows.front().data(), owner);
+  array.attr("flags").attr("writeable") = false;
+  return array;
+}
+
+MeshHandle on_side(const MeshHandle& handle, py::dict values) {
+  SideOptions made;
+  Options options(std::move(values));
+  options.read("side", made.side,
+               std::array{std::pair{std::string_view("inside"), MeshSide::kInside},
+                          std::pair{std::string_view("outside"), MeshSide::kOutside}});
+  options.read("margin", made.margin);
+  options.read("threads", made.threads);
+  options.finish();
+  return run_here([&] { return MeshHandle{value_of(handle.mesh.on_side(made))}; });
+}
+
+MeshHandle moved(const MeshHandle& handle, py::handle vertices) {
+  const std::vector<Point> points = points_of(vertices, "vertices");
+  return run_here([&] {
+    MeshHandle copy = handle;
+    require(copy.mesh.move_vertices(points));
+    return copy;
+  });
+}
+
+py::dict closest_points(const MeshHandle& handle, py::handle array) {
+  const std::vector<Point> points = points_of(array, "points");
+  std::vector<Point> nearest(points.size());
+  std::vector<double> distances(points.size());
+  std::vector<std::uint32_t> triangles(points.size());
+  const auto call = std::make_shared<Call>();
+  const Bvh& tree = handle.mesh.bvh();
+  require(run(call, [&]() -> Status {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (call->token().stop_requested()) return Error{ErrorCode::kInterrupted, "stopped"};
+      if (!(std::abs(points[i][0]) + std::abs(points[i][1]) + std::abs(points[i][2]) <= 1e150)) {
+        return Error{ErrorCode::kUsage, "row " + std::to_string(i) + " of `points` is not finite, or beyond 1e150"};
+      }
+      const BvhHit hit = tree.closest(points[i]);
+      nearest[i] = hit.point;
+      distances[i] = std::sqrt(hit.squared_distance);
+      triangles[i] = hit.triangle;
+    }
+    return {};
+  }));
+  py::dict out;
+  out["points"] = array_of(std::move(nearest));
+  out["distances"] = array_of(std::move(distances));
+  out["triangles"] = array_of(std::move(triangles));
+  return out;
+}
+
+py::array_t<double> depths(const MeshHandle& handle, py::handle array, unsigned threads) {
+  const std::vector<Point> points = points_of(array, "points");
+  std::vector<double> out(points.size());
+  const auto call = std::make_shared<Call>();
+  require(run(call, [&] { return measure_depths(handle.mesh, points, out, {threads}, call->token()); }));
+  return array_of(std::move(out));
+}
+
+}  // namespace
+
+void bind_mesh(py::module_& module) {
+  py::class_<MeshHandle>(module, "Mesh")
+      .def("vertices", [](const MeshHandle& mesh) { return rows_of(mesh, mesh.mesh.view().vertices); })
+      .def("triangles", [](const MeshHandle& mesh) { return rows_of(mesh, mesh.mesh.view().triangles); })
+      .def("vertex_of_input",
+           [](const MeshHandle& mesh) {
+             return column(mesh.mesh.prepared().vertex_of_input, [](std::uint32_t vertex) {
+               return vertex == PreparedMesh::kDropped ? std::int64_t{-1} : std::int64_t{vertex};
+             });
+           })
+      .def("triangle_of_input",
+           [](const MeshHandle& mesh) {
+             return array_of(std::vector<std::uint32_t>(mesh.mesh.prepared().input_of_triangle));
+           })
+      .def("report", [](const MeshHandle& mesh) { return report_dict(mesh.mesh.prepared().report); })
+      .def("longest_side", [](const MeshHandle& mesh) { return mesh.mesh.longest_side(); })
+      .def("is_outside", [](const MeshHandle& mesh) { return mesh.mesh.side() == MeshSide::kOutside; })
+      .def("region",
+           [](const MeshHandle& mesh) {
+             return py::make_tuple(array_of(mesh.mesh.region_lower()), array_of(mesh.mesh.region_upper()));
+           })
+      .def("on_side", &on_side)
+      .def("moved", &moved)
+      .def("closest_points", &closest_points)
+      .def("depths", &depths);
+  module.def("make_mesh", &make_mesh);
+  module.def("read_mesh", &read_file);
+}
+
+}  // namespace medial_vk::python

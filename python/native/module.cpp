@@ -1,0 +1,25 @@
+// The module medial_vk._native: the calls of the library on NumPy arrays. Its functions are private; the package
+// medial_vk gives them names, defaults, types and documentation.
+#include <pybind11/pybind11.h>
+
+#include <string>
+
+#include "medial_vk/version.h"
+#include "native/errors.h"
+#include "native/handles.h"
+
+PYBIND11_MODULE(_native, module) {
+  namespace python = medial_vk::python;
+  module.doc() = "Calls of the medial-vk library; use the package medial_vk.";
+  module.attr("VERSION") = std::to_string(MEDIAL_VK_VERSION_MAJOR) + "." + std::to_string(MEDIAL_VK_VERSION_MINOR) +
+                           "." + std::to_string(MEDIAL_VK_VERSION_PATCH);
+  python::register_errors();
+  python::bind_context(module);
+  python::bind_mesh(module);
+  python::bind_analysis(module);
+  python::bind_spheres(module);
+  python::bind_unions(module);
+  python::bind_distances(module);
+  python::bind_following(module);
+  python::bind_boundary(module);
+}

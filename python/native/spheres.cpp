@@ -1,0 +1,161 @@
+#include <pybind11/stl.h>
+
+#include "medial_vk/sphere_fits.h"
+#include "medial_vk/sphere_proofs.h"
+#include "native/arrays.h"
+#include "native/calls.h"
+#include "native/handles.h"
+#include "native/options.h"
+
+namespace medial_vk::python {
+namespace {
+
+namespace py = pybind11;
+
+template <class T>
+using Choice = std::pair<std::string_view, T>;
+
+SphereFitOptions fit_options(py::dict values) {
+  SphereFitOptions made;
+  Options options(std::move(values));
+  options.read("contract", made.contract,
+               std::array{Choice<SphereContract>{"inside", SphereContract::kInside},
+                          Choice<SphereContract>{"cover", SphereContract::kCover},
+                          Choice<SphereContract>{"balanced", SphereContract::kBalanced}});
+  options.read("method", made.method,
+               std::array{Choice<SphereMethod>{"best", SphereMethod::kBest},
+                          Choice<SphereMethod>{"source", SphereMethod::kSource}});
+  options.read("count", made.count);
+  options.read("error", made.error);
+  options.read("max_gap", made.max_gap);
+  options.read("resolution", made.resolution);
+  options.read("object_angle", made.object_angle);
+  options.read("levels", made.levels);
+  options.read("balls_only", made.balls_only);
+  options.read("for_distances", made.for_distances);
+  options.read("threads", made.threads);
+  options.finish();
+  return made;
+}
+
+py::dict balls_dict(const std::vector<Ball>& balls) {
+  py::dict out;
+  out["centres"] = column(balls, [](const Ball& ball) { return ball.centre; });
+  out["radii"] = column(balls, [](const Ball& ball) { return ball.radius; });
+  return out;
+}
+
+py::tuple bounds_tuple(const Bounds& bounds) { return py::make_tuple(bounds.lower, bounds.upper); }
+
+py::dict inside_dict(const InsideProof& proof) {
+  py::dict out;
+  out["tested"] = proof.tested;
+  out["failed"] = proof.failed;
+  out["first_failure"] = proof.first_failure;
+  out["greatest_excess"] = proof.greatest_excess;
+  out["proved"] = proof.proved();
+  return out;
+}
+
+py::dict cover_dict(const CoverProof& proof) {
+  py::dict out;
+  out["triangles"] = proof.triangles;
+  out["uncovered"] = proof.uncovered;
+  out["undecided"] = proof.undecided;
+  out["first_uncovered"] = array_of(proof.first_uncovered);
+  out["vertices"] = proof.vertices;
+  out["inside"] = proof.inside;
+  out["first_inside"] = array_of(proof.first_inside);
+  out["closed"] = proof.closed;
+  out["surface_proved"] = proof.surface_proved();
+  out["proved"] = proof.proved();
+  return out;
+}
+
+py::dict measures_dict(const SphereMeasures& measures) {
+  py::dict volume;
+  volume["solid"] = measures.volume.solid;
+  volume["balls"] = measures.volume.balls;
+  volume["uncovered"] = measures.volume.uncovered;
+  volume["outside"] = measures.volume.outside;
+  volume["standard_error"] = measures.volume.standard_error;
+  volume["normalized"] = measures.volume.normalized();
+  py::dict distances;
+  distances["solid_to_balls"] = bounds_tuple(measures.distances.solid_to_balls);
+  distances["balls_to_solid"] = bounds_tuple(measures.distances.balls_to_solid);
+  distances["boundary_to_balls"] = bounds_tuple(measures.distances.boundary_to_balls);
+  distances["boundary_to_envelope"] = bounds_tuple(measures.distances.boundary_to_envelope);
+  distances["envelope_to_boundary"] = bounds_tuple(measures.distances.envelope_to_boundary);
+  py::dict metrics;
+  metrics["num_spheres"] = measures.metrics.num_spheres;
+  metrics["coverage"] = measures.metrics.coverage;
+  metrics["protrusion"] = measures.metrics.protrusion;
+  metrics["protrusion_dist_mean"] = measures.metrics.protrusion_dist_mean;
+  metrics["protrusion_dist_p95"] = measures.metrics.protrusion_dist_p95;
+  metrics["surface_gap_mean"] = measures.metrics.surface_gap_mean;
+  metrics["surface_gap_p95"] = measures.metrics.surface_gap_p95;
+  metrics["max_uncovered_gap"] = measures.metrics.max_uncovered_gap;
+  metrics["volume_ratio"] = measures.metrics.volume_ratio;
+  py::dict out;
+  out["diagonal"] = measures.diagonal;
+  out["inside"] = inside_dict(measures.inside);
+  out["cover"] = cover_dict(measures.cover);
+  out["volume"] = std::move(volume);
+  out["distances"] = std::move(distances);
+  out["metrics"] = std::move(metrics);
+  return out;
+}
+
+py::dict fit_dict(const SphereFit& fit) {
+  py::list levels, reach;
+  for (const std::vector<Ball>& level : fit.levels) levels.append(balls_dict(level));
+  for (const ReachOut& out : fit.reach) reach.append(py::make_tuple(out.mean, out.least, out.greatest));
+  py::dict out;
+  out["levels"] = std::move(levels);
+  out["reach"] = std::move(reach);
+  out["measures"] = measures_dict(fit.measures);
+  out["solid_volume"] = fit.solid_volume ? py::object(py::float_(*fit.solid_volume)) : py::object(py::none());
+  return out;
+}
+
+py::dict fit_mesh(const MeshHandle& mesh, const ContextHandle& context, py::dict values, const py::object& progress) {
+  const SphereFitOptions options = fit_options(std::move(values));
+  const auto call = std::make_shared<Call>();
+  const StageProgress on_progress = stage_progress(call, progress);
+  const SphereFit fit = value_of(run(call, [&] {
+    return context->use(call->token(), [&](Context& device) {
+      return fit_spheres(mesh.mesh, options, device, on_progress, call->token());
+    });
+  }));
+  return fit_dict(fit);
+}
+
+py::dict prove(const MeshHandle& mesh, py::handle inside_centres, py::handle inside_radii, py::handle cover_centres,
+               py::handle cover_radii, unsigned threads) {
+  const std::vector<Ball> inside = balls_of(inside_centres, inside_radii);
+  const std::vector<Ball> cover = balls_of(cover_centres, cover_radii);
+  const auto call = std::make_shared<Call>();
+  const SphereProofs proofs =
+      value_of(run(call, [&] { return prove_spheres(mesh.mesh, inside, cover, {.threads = threads}, call->token()); }));
+  py::dict out;
+  out["inside"] = inside_dict(proofs.inside);
+  out["cover"] = cover_dict(proofs.cover);
+  return out;
+}
+
+py::tuple gap(const MeshHandle& mesh, py::handle centres, py::handle radii, unsigned threads) {
+  const std::vector<Ball> balls = balls_of(centres, radii);
+  const auto call = std::make_shared<Call>();
+  return bounds_tuple(
+      value_of(run(call, [&] { return measure_gap(mesh.mesh, balls, {.threads = threads}, call->token()); })));
+}
+
+}  // namespace
+
+void bind_spheres(py::module_& module) {
+  module.def("fit_spheres", &fit_mesh);
+  module.def("prove_spheres", &prove);
+  module.def("measure_gap", &gap);
+}
+
+}  // namespace medial_vk::python
