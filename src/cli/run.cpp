@@ -5,6 +5,7 @@
 #include <exception>
 #include <new>
 
+#include "cli/batch/run_batch.h"
 #include "cli/clearance/run_clearance.h"
 #include "cli/curvature/run_curvature.h"
 #include "cli/distance/run_distance.h"
@@ -49,6 +50,7 @@ Status run_action(const Options& options) {
 /// By the first argument.
 Command command_of(const std::vector<std::string>& arguments) {
   if (arguments.empty()) return Command::kExtract;
+  if (arguments[0] == "batch") return Command::kBatch;
   if (arguments[0] == "spheres") return Command::kSpheres;
   if (arguments[0] == "distance") return Command::kDistance;
   if (arguments[0] == "clearance") return Command::kClearance;
@@ -60,6 +62,7 @@ Command command_of(const std::vector<std::string>& arguments) {
 }
 
 Status parse_and_run(Command command, const std::vector<std::string>& arguments) {
+  if (command == Command::kBatch) return run_batch({arguments.begin() + 1, arguments.end()});
   if (command == Command::kSpheres) return run_spheres({arguments.begin() + 1, arguments.end()});
   if (command == Command::kDistance) return run_distance({arguments.begin() + 1, arguments.end()});
   if (command == Command::kClearance) return run_clearance({arguments.begin() + 1, arguments.end()});

@@ -39,4 +39,10 @@ std::string scene_format_of(std::string_view bytes, const std::string& name) {
   return {};
 }
 
+bool is_name_of_mesh(const std::string& name) {
+  std::string extension = file_extension(name);
+  if (!extension.empty()) extension.erase(0, 1);
+  return is_among(extension, kExtensions) || is_among(extension, kOwn);
+}
+
 }  // namespace medial_vk

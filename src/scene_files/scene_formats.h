@@ -11,4 +11,7 @@ namespace medial_vk {
 /// of `name`. OBJ, PLY, STL and OFF are never among them: this program reads those itself.
 std::string scene_format_of(std::string_view bytes, const std::string& name);
 
+/// Whether the extension of a name, in upper or lower case, is that of a format of meshes that this program reads.
+bool is_name_of_mesh(const std::string& name);
+
 }  // namespace medial_vk

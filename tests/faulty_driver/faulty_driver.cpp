@@ -1,8 +1,9 @@
 // A Vulkan driver that fails on request: lavapipe, with one fault that the variable FAULTY_DRIVER names. The tests of
-// `medial-vk doctor` install it by a driver file of their own.
+// `medial-vk doctor` and `medial-vk batch` install it by a driver file of their own.
 //
 //   crash_at_once, hang_at_once   when the loader opens it
 //   crash, hang                   when work is submitted
+//   lose_first                    when work is submitted: the device is lost, and the next one that is opened is not
 //   skip_work                     dispatches are left out: results are wrong
 //   crash_with_cache              when it receives programs of an earlier run
 #include <dlfcn.h>
@@ -42,10 +43,16 @@ void hang() {
 }
 
 PFN_vkQueueSubmit real_submit = nullptr;
+bool is_lost = false;
 
 VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, std::uint32_t count, const VkSubmitInfo* infos, VkFence fence) {
   if (has_fault("crash")) crash();
   if (has_fault("hang")) hang();
+  if (has_fault("lose_first")) {
+    is_lost = true;
+    ::setenv("FAULTY_DRIVER", "none", 1);  // The loader may close this library with the device, and open it again.
+  }
+  if (is_lost) return VK_ERROR_DEVICE_LOST;
   return real_submit(queue, count, infos, fence);
 }
 
@@ -55,6 +62,7 @@ PFN_vkCreatePipelineCache real_create_cache = nullptr;
 
 VKAPI_ATTR VkResult VKAPI_CALL create_cache(VkDevice device, const VkPipelineCacheCreateInfo* info,
                                             const VkAllocationCallbacks* callbacks, VkPipelineCache* cache) {
+  is_lost = false;  // the library makes one for each device
   if (has_fault("crash_with_cache") && info->initialDataSize > 0) crash();
   return real_create_cache(device, info, callbacks, cache);
 }

@@ -33,6 +33,7 @@ NOT_RUN = {
     r"cmake ": "has configured and built this test; package.consumer installs",
     r"ctest ": "runs this test",
     r"node tests/page/look.mjs PAGE": "names no file; with files it is run",
+    r"medial-vk batch( FOLDER -o OUT)?$": "names the command; a run of it has meshes",
     r"medial-vk spheres( MESH| ROBOT.urdf)?$": "names the command; a run of it has a goal",
     r"medial-vk distance( A B)?$": "names the command; a run of it has two meshes",
     r"medial-vk clearance( ROBOT.urdf)?$": "names the command; a run of it has joints",
@@ -75,7 +76,7 @@ def shown(source, programs):
     """All commands, as pairs of document and command."""
     documents = [source / "README.md", *sorted((source / "docs").glob("*.md"))]
     found = [(d.name, command) for d in documents for command in commands_of_markdown(d.read_text())]
-    for words in ([], ["spheres"], ["distance"], ["clearance"], ["follow"], ["curvature"], ["plane"], ["voronoi"], ["doctor"]):
+    for words in ([], ["batch"], ["spheres"], ["distance"], ["clearance"], ["follow"], ["curvature"], ["plane"], ["voronoi"], ["doctor"]):
         text = subprocess.run([programs["medial-vk"], *words, "--help"], check=True, capture_output=True, text=True).stdout
         found += [(" ".join([*words, "--help"]), command) for command in commands_of_help(text)]
     for page in sorted((source / "docs").glob("*.1")):
@@ -92,6 +93,10 @@ def outputs_of(words):
         return [f"{arguments[0]}/frame-{i}.png" for i in range(int(arguments[1]))]
     if program == "node":
         return arguments[2:3]
+    if arguments[:1] == ["batch"]:
+        folders = [b for a, b in zip(arguments, arguments[1:]) if a in ("-o", "--output")]
+        names = ["batch.csv", *(["batch.html"] if "--html" in arguments else [])]
+        return [f"{folder}/{name}" for folder in folders for name in names]
     files = [b for a, b in zip(arguments, arguments[1:])
              if a in ("-o", "--output", "--html", "--picture", "--report", "--histogram", "--write-srdf", "--rig",
                       "--boundary", "--thickness-histogram", "--thickness-points")]
@@ -202,6 +207,10 @@ class Folder:
         text = "\n".join(lines + ["endsolid part", ""])
         for name in ("part.stl", "path/part.stl"):
             (self.path / name).write_text(text)
+        (self.path / "parts").mkdir()
+        for name in ("part.obj", "other.obj"):
+            shutil.copy(self.path / name, self.path / "parts")
+        (self.path / "list.txt").write_text("part.stl\nother.obj\n")
 
     def write_dancer(self, corners, triangles):
         """A glTF of the part, which turns by a quarter about x in a second, as an animation of its node."""
@@ -255,7 +264,9 @@ class Folder:
         if before:
             for copy in copies.rglob("*"):
                 if copy.is_file():
-                    shutil.copy(copy, self.path / copy.relative_to(copies))
+                    to = self.path / copy.relative_to(copies)
+                    to.parent.mkdir(parents=True, exist_ok=True)
+                    shutil.copy(copy, to)
         self.seconds = 0 if before else wall
         return wrong
 

@@ -18,6 +18,7 @@
 #include "cli/shared/load_body.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/messages.h"
+#include "common/digest.h"
 #include "common/tool_errors.h"
 #include "medial_vk/ball_union.h"
 #include "medial_vk/version.h"
@@ -25,34 +26,15 @@
 namespace medial_vk::cli {
 namespace {
 
-/// FNV-1a over 64 bits, for names: meshes are compared besides.
-class Digest {
- public:
-  void add_bytes(std::span<const std::byte> bytes) {
-    for (const std::byte byte : bytes) hash_ = (hash_ ^ std::to_integer<std::uint64_t>(byte)) * 0x100000001b3ull;
+void add_solid(const LinkSolid& solid, Digest& digest) {
+  digest.add(std::uint32_t{solid.ball.has_value()});
+  if (solid.ball) {
+    for (const double coordinate : solid.ball->centre) digest.add(coordinate);
+    digest.add(solid.ball->radius);
+  } else {
+    digest.add(solid.mesh.prepared().mesh);
   }
-  template <class T>
-  void add(const T& number) {
-    add_bytes(std::as_bytes(std::span(&number, 1)));
-  }
-  void add_solid(const LinkSolid& solid) {
-    add(solid.ball.has_value());
-    if (solid.ball) {
-      add(solid.ball->centre);
-      add(solid.ball->radius);
-      return;
-    }
-    const Mesh& mesh = solid.mesh.prepared().mesh;
-    add(mesh.vertices.size());
-    add_bytes(std::as_bytes(std::span(mesh.vertices)));
-    add(mesh.triangles.size());
-    add_bytes(std::as_bytes(std::span(mesh.triangles)));
-  }
-  std::string text() const { return fmt::format("{:016x}", hash_); }
-
- private:
-  std::uint64_t hash_ = 0xcbf29ce484222325ull;
-};
+}
 
 bool has_same_shape(const LinkSolid& a, const LinkSolid& b) {
   if (a.ball && b.ball) return a.ball->centre == b.ball->centre && a.ball->radius == b.ball->radius;
@@ -187,15 +169,15 @@ std::vector<std::string> names_of_bodies(const RobotAndScene& all, const Clearan
     of_link.add(static_cast<std::uint64_t>(options.balls));
     of_link.add(options.resolution);
     for (end = begin; end < around.size() && all.owner_of(end) == all.owner_of(begin); ++end) {
-      of_link.add_solid(around[end]);
-      of_link.add_solid(inside[end]);
+      add_solid(around[end], of_link);
+      add_solid(inside[end], of_link);
     }
-    // Two shapes with one digest are told apart by what is hashed besides.
+    // Two shapes with one digest are told apart by words that are added.
     const std::string stem = plain_stem(around[begin].name);
     while (true) {
       const auto [first, is_new] = first_of.emplace(stem + of_link.text(), begin);
       if (is_new || have_same_shapes(all, first->second, begin, end)) break;
-      of_link.add(std::uint8_t{1});
+      of_link.add(std::uint32_t{1});
     }
     for (std::size_t i = begin; i < end; ++i) {
       Digest digest = of_link;

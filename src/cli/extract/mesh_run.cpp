@@ -39,7 +39,7 @@ AnalysisOptions analysis_options(const Options& options) {
   out.sheets = options.sheets;
   out.sheets->areas = false;  // unless volumes are measured
   out.simplify = options.simplify;
-  out.volumes = !options.ball_volumes.empty() || !options.report.empty() || !options.html.empty();
+  out.volumes = options.volumes || !options.ball_volumes.empty() || !options.report.empty() || !options.html.empty();
   out.keep_volume = options.keep_volume;
   out.keep_topology = options.keep_topology;
   out.removal_orders = !options.sheet_curve.empty();
@@ -354,7 +354,7 @@ Status MeshRun::draw() {
   look.least_angle = options_.extraction.object_angle;
   look.frame_points = record_.search.outside;
   DrawnPicture drawn = draw_picture(mesh_->prepared().mesh, analysis_.spheres, record_.grid.voxel_size, look,
-                                    record_.device ? &*record_.device : nullptr);
+                                    record_.device && !options_.draws_on_host ? &*record_.device : nullptr);
   return add_picture(drawn.picture, std::move(drawn.drawn_by), stopwatch);
 }
 

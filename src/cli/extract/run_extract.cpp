@@ -6,13 +6,13 @@
 #include <cstddef>
 #include <iterator>
 #include <memory>
-#include <new>
 #include <utility>
 
 #include "cli/extract/mesh_run.h"
 #include "cli/extract/summary.h"
 #include "cli/extract/wall_run.h"
 #include "cli/options/options.h"
+#include "cli/shared/leave_device.h"
 #include "cli/shared/load.h"
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/messages.h"
@@ -23,16 +23,6 @@
 
 namespace medial_vk::cli {
 namespace {
-
-// Sanitizers report threads that still run at the end, and memory that a driver points to from regions they do not
-// scan.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kIsSanitized = true;
-#elif defined(__has_feature)
-constexpr bool kIsSanitized = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
-#else
-constexpr bool kIsSanitized = false;
-#endif
 
 /// An early test, which saves hours of work.
 Status check_outputs(const Options& options) {
@@ -66,7 +56,7 @@ class ExtractionRun {
     shared_.progress.clear();
     if (interrupted()) return stopped();
     if (Status status = write_all(); !status) return status;
-    leave_device();
+    leave_device(shared_.context);
     return conclude();
   }
 
@@ -106,15 +96,6 @@ class ExtractionRun {
     std::vector<OutputFile> files;
     for (const auto& run : runs_) files.insert(files.end(), run->files().begin(), run->files().end());
     return write_files(files);
-  }
-
-  /// All work is done, and the process ends: the operating system releases the device sooner than its driver would.
-  void leave_device() {
-    if (!shared_.context || kIsSanitized) return;
-    shared_.context->close_programs();
-    alignas(Context) static std::byte left[sizeof(Context)];  // is never destroyed
-    new (left) Context(std::move(*shared_.context));
-    shared_.context.reset();
   }
 
   Status conclude() const {

@@ -11,6 +11,8 @@ that touch its surface in two places, at most one per voxel.
 Usage:
   medial-vk [options] MESH     OBJ, PLY, STL, OFF, glTF, GLB, 3MF, FBX, COLLADA
                                and more; "-": standard input
+  medial-vk batch [options] FOLDER|LIST|MESH... -o OUT   many meshes in one
+                               process: medial-vk batch --help
   medial-vk spheres [options] MESH|ROBOT.urdf   N balls in the place of a solid
                                or of a robot's links: medial-vk spheres --help
   medial-vk distance [options] A B   the distance between two solids, in many

@@ -9,6 +9,7 @@ namespace medial_vk::cli {
 std::string help_text();
 
 // The output of `medial-vk COMMAND --help`.
+std::string batch_help_text();
 std::string spheres_help_text();
 std::string distance_help_text();
 std::string clearance_help_text();

@@ -10,6 +10,7 @@
 
 #include "cli/options/declarations.h"
 #include "cli/options/measures.h"
+#include "cli/options/options_of_meshes.h"
 #include "cli/options/output_names.h"
 #include "cli/options/parse_number.h"
 #include "common/file_extension.h"
@@ -44,12 +45,19 @@ void declare_side(Declarations& add, Options& options) {
   add.length("--margin", 1e150, " (units of the mesh)", options.margin);
 }
 
-void declare(CLI::App& app, Options& options) {
-  ExtractionOptions& extraction = options.extraction;
-  Declarations add(app);
+/// What one mesh needs, and several meshes of one run cannot share.
+void declare_mesh(Declarations& add, Options& options) {
   add.text("MESH", "file", options.mesh);
   add.flag("--each", options.each);
   add.text("-o,--output", "file", options.output);
+  add.text("--html", "file", options.html);
+  add.action("--list-devices", Action::kListDevices, options.action);
+  add.action("--version", Action::kVersion, options.action);
+  add.action("-h,--help", Action::kHelp, options.action);
+}
+
+/// Files, and what is drawn in them.
+void declare_files(Declarations& add, Options& options) {
   add.flag("--ascii", options.ascii);
   add.flag("--mesh-spheres", options.mesh_spheres);
   add.flag("--gpu-instancing", options.gpu_instancing);
@@ -75,10 +83,16 @@ void declare(CLI::App& app, Options& options) {
                         {"shape", ColourBy::kShape}},
                        options.colour);
   add.flag("--strokes", options.strokes);
-  add.text("--html", "file", options.html);
   add.text("--medial-mesh", "file", options.medial_mesh);
   add.text("--sheet-curve", "file", options.sheet_curve);
   add.text("--ball-volumes", "file", options.ball_volumes);
+}
+
+}  // namespace
+
+void declare_shared(Declarations& add, Options& options) {
+  ExtractionOptions& extraction = options.extraction;
+  declare_files(add, options);
   declare_boundary(add, options);
   declare_side(add, options);
 
@@ -110,10 +124,9 @@ void declare(CLI::App& app, Options& options) {
   add.flag("--kernel-times", extraction.measurements.kernel_times);
   add.flag("-q,--quiet", options.quiet);
   add.flag("-v,--verbose", options.verbose);
-  add.action("--list-devices", Action::kListDevices, options.action);
-  add.action("--version", Action::kVersion, options.action);
-  add.action("-h,--help", Action::kHelp, options.action);
 }
+
+namespace {
 
 /// MESH-stem.medial.ply in the current folder; balls as a mesh are no medial PLY.
 std::string default_output(const Options& options) {
@@ -249,6 +262,8 @@ Status check_picture_options(const Options& options) {
   return {};
 }
 
+}  // namespace
+
 Status complete_files(Options& options) {
   if (options.mesh.empty()) return usage_error("no MESH given");
   if (options.output.empty()) options.output = default_output(options);
@@ -296,8 +311,6 @@ Status check_combinations(const Options& options) {
   return {};
 }
 
-}  // namespace
-
 /// The application writes to `options`, so both stay together and do not move.
 struct OptionParser::Declared {
   ReusableApp app;
@@ -319,7 +332,9 @@ std::string hint_at_option(const CLI::App& app, const std::vector<std::string>& 
 OptionParser::OptionParser() : declared_(std::make_unique<Declared>()) {
   declared_->app.set_help_flag();  // The text of --help is written by hand.
   declared_->app.allow_extras();   // Reported here, with a suggestion.
-  declare(declared_->app, declared_->options);
+  Declarations add(declared_->app);
+  declare_mesh(add, declared_->options);
+  declare_shared(add, declared_->options);
 }
 
 OptionParser::~OptionParser() = default;

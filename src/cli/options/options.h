@@ -49,6 +49,7 @@ struct Options {
   SheetOptions sheets;
   double keep_volume = 0;  ///< Share of the volume that the kept sheets must have; 0: all are kept.
   bool keep_topology = false;
+  bool volumes = false;  ///< Of the union of the balls: measured even if no file needs it.
 
   Backend backend = Backend::kVulkan;
   std::string device;
@@ -80,6 +81,7 @@ struct Options {
   bool strokes = false;                           ///< Principal directions in the picture of the boundary.
   PictureOptions look;                            ///< Of the picture; the page shares `up` of its view.
   ViewChoice view;                                ///< As given; `look` holds the resulting view.
+  bool draws_on_host = false;                     ///< The picture, whatever device computes.
   bool check = false;
 
   bool quiet = false;

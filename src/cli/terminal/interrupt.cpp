@@ -12,15 +12,18 @@
 namespace medial_vk::cli {
 namespace {
 
-std::atomic<bool> stop_requested{false}, may_end_at_once{false}, on_terminal{false}, has_kept_bodies{false};
+std::atomic<bool> stop_requested{false}, may_end_at_once{false}, on_terminal{false};
+std::atomic<bool> has_kept_bodies{false}, has_kept_meshes{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch lock-free atomics only");
 
 /// Calls only functions allowed in a handler: write() and _exit().
 [[noreturn]] void end_at_once() {
   constexpr std::string_view kNothing = "\nmedial-vk: interrupted; nothing was written\n";
   constexpr std::string_view kBodies = "\nmedial-vk: interrupted; the bodies are kept, and nothing else was written\n";
+  constexpr std::string_view kMeshes = "\nmedial-vk: interrupted; the meshes that are done are kept\n";
+  const std::string_view kept = has_kept_meshes ? kMeshes : has_kept_bodies ? kBodies : kNothing;
   // On a terminal, below the line on which the shell has shown ^C.
-  const std::string_view message = (has_kept_bodies ? kBodies : kNothing).substr(on_terminal ? 0 : 1);
+  const std::string_view message = kept.substr(on_terminal ? 0 : 1);
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, message.data(), message.size());
   ::_exit(exit_code(ErrorCode::kInterrupted));
 }
@@ -59,6 +62,8 @@ void end_if_interrupted() {
 }
 
 void tell_of_kept_bodies() { has_kept_bodies = true; }
+
+void tell_of_kept_meshes() { has_kept_meshes = true; }
 
 EndAtOnce::EndAtOnce() { may_end_at_once = true; }
 EndAtOnce::~EndAtOnce() { may_end_at_once = false; }

@@ -12,6 +12,9 @@ void end_if_interrupted();
 /// on.
 void tell_of_kept_bodies();
 
+/// From here on that message says that results of meshes are kept: `medial-vk batch` writes those of each mesh at once.
+void tell_of_kept_meshes();
+
 /// While an object exists, the first signal also ends the program at once, with a message and exit code 130. It is for
 /// work that has nothing to undo and cannot be stopped half-way, such as a wait for input that does not come. Signals
 /// before construction are not handled here: call interrupted() after construction.

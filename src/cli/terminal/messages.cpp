@@ -138,6 +138,7 @@ constexpr ParameterWords kParameterWords[] = {
 std::string_view words_of(const ParameterWords& parameter, Command command) {
   switch (command) {
     case Command::kExtract:
+    case Command::kBatch:
       break;
     case Command::kSpheres:
       return parameter.spheres;
@@ -165,6 +166,8 @@ const char* name_of(Command command) {
   switch (command) {
     case Command::kExtract:
       break;
+    case Command::kBatch:
+      return "medial-vk batch";
     case Command::kSpheres:
     case Command::kRobotSpheres:
       return "medial-vk spheres";
@@ -230,9 +233,10 @@ Status print_result(const std::string& text) {
 void print_message(const std::string& text) { std::fputs(text.c_str(), stderr); }
 
 int exit_code(ErrorCode code) {
-  if (code == kCannotWrite) return 6;
+  if (code == kCannotWrite || code == kDiskFails) return 6;
   if (code == kCheckFailed) return 7;
   if (code == kWallTooThin) return 8;
+  if (code == kSomeFailed) return 9;
   switch (code) {
     case ErrorCode::kUsage:
       return 2;

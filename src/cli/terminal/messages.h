@@ -16,6 +16,7 @@ Error stopped();
 /// The commands of the tool, as far as their options differ.
 enum class Command {
   kExtract,       ///< medial-vk
+  kBatch,         ///< medial-vk batch, whose options are those of medial-vk
   kSpheres,       ///< medial-vk spheres, of a mesh
   kRobotSpheres,  ///< medial-vk spheres, of a robot
   kDistance,      ///< medial-vk distance

@@ -17,12 +17,29 @@
 #include "common/tool_errors.h"
 
 namespace medial_vk {
+
+bool write_all(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
 namespace {
 
 namespace fs = std::filesystem;
 
+/// Whether the reason is the disk, and not the file.
+bool is_of_disk(int system_error) {
+  return system_error == ENOSPC || system_error == EDQUOT || system_error == EROFS || system_error == EIO;
+}
+
 Error write_error(const std::string& path, const char* what, int system_error) {
-  return {kCannotWrite, fmt::format("cannot write {}: {}{}", path, what, std::strerror(system_error))};
+  return {is_of_disk(system_error) ? kDiskFails : kCannotWrite,
+          fmt::format("cannot write {}: {}{}", path, what, std::strerror(system_error))};
 }
 
 std::string folder_of(const std::string& path) {
@@ -61,16 +78,6 @@ std::string random_name(const std::string& target) {
 }
 
 std::string self_path(int descriptor) { return fmt::format("/proc/self/fd/{}", descriptor); }
-
-bool write_all(int descriptor, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return true;
-}
 
 /// For the effective user of the process, who creates files, not the user who started it.
 bool may(const std::string& path, int mode) { return ::faccessat(AT_FDCWD, path.c_str(), mode, AT_EACCESS) == 0; }

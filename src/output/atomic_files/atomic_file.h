@@ -17,7 +17,7 @@ namespace medial_vk {
 class AtomicFile {
  public:
   /// `may_be_unnamed` false: behaves as if O_TMPFILE were not supported. Errors (all calls): kCannotWrite with the path
-  /// and the reason of the system.
+  /// and the reason of the system, or kDiskFails if the disk is full, over its quota, read-only or faulty.
   static Result<AtomicFile> create(const std::string& path, bool may_be_unnamed = true);
   AtomicFile(AtomicFile&& other) noexcept;
   AtomicFile& operator=(AtomicFile&& other) noexcept;
@@ -42,16 +42,20 @@ class AtomicFile {
   int descriptor_ = -1;
 };
 
+/// write() until all bytes are written, or an error other than EINTR: then false, and errno has it.
+bool write_all(int descriptor, std::string_view bytes);
+
 struct OutputFile {
   std::string path;  ///< "-": standard output.
   std::string bytes;
 };
 
-/// Writes all files or none: every byte is on disk before the first rename. Errors: kCannotWrite.
+/// Writes all files or none: every byte is on disk before the first rename. Errors: kCannotWrite,
+/// kDiskFails.
 Status write_files(std::span<const OutputFile> files);
 
 /// A test before hours of work: the folder of `path` exists, and `path` is no folder. Creates nothing. Errors:
-/// kCannotWrite.
+/// kCannotWrite, kDiskFails.
 Status check_writable(const std::string& path);
 
 }  // namespace medial_vk

@@ -2,21 +2,11 @@
 
 #include <cmath>
 
+#include "common/csv_cell.h"
 #include "output/motion_files/motion_files.h"
 
 namespace medial_vk {
 namespace {
-
-/// A value of RFC 4180: quoted if it holds a character with a meaning there.
-std::string csv_value(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + '"';
-}
 
 std::string number_or_nothing(double value) { return std::isfinite(value) ? fmt::format("{}", value) : std::string(); }
 
@@ -55,7 +45,7 @@ std::string encode_motion_csv(const MotionRecord& record) {
   csv += record.renews ? ",renewed\n" : "\n";
   for (std::size_t i = 0; i < record.frames.size(); ++i) {
     const FollowedFrame& frame = record.frames[i];
-    csv += fmt::format("{},{},{},{}", i, csv_value(frame.name), frame.time,
+    csv += fmt::format("{},{},{},{}", i, csv_cell(frame.name), frame.time,
                        frame.cover ? cover_numbers(record, *frame.cover) : inside_numbers(record, frame));
     for (const std::size_t count : state_counts(record, frame)) csv += fmt::format(",{}", count);
     if (record.renews) csv += fmt::format(",{}", frame.renewed());

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "common/csv_cell.h"
 #include "output/sphere_files/encoders.h"
 #include "output/sphere_files/float_text.h"
 
@@ -12,13 +13,6 @@ namespace {
 
 /// The number of the layout, raised when a key changes its meaning.
 constexpr int kSpheresFormat = 1;
-
-std::string csv_word(const std::string& word) {
-  if (word.find_first_of("\",\n\r") == std::string::npos) return word;
-  std::string quoted = "\"";
-  for (const char c : word) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
 
 std::size_t levels_of(const SphereFile& file) { return file.parts.empty() ? 0 : file.parts.front().levels.size(); }
 
@@ -141,7 +135,7 @@ std::string encode_spheres_csv(const SphereFile& file) {
   for (const std::size_t level : wanted_levels(file)) {
     for (const PartSpheres& part : file.parts) {
       for (const Ball& ball : part.levels[level]) {
-        if (file.is_robot) out += csv_word(part.link) + ",";
+        if (file.is_robot) out += csv_cell(part.link) + ",";
         out += fmt::format("{},{},{},{}", ball.centre[0], ball.centre[1], ball.centre[2], ball.radius);
         out += file.with_levels ? fmt::format(",{}\n", level) : "\n";
       }

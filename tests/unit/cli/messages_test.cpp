@@ -96,6 +96,7 @@ TEST(Messages, ExitCodes) {
   EXPECT_EQ(exit_code(ErrorCode::kNoDevice), 4);
   EXPECT_EQ(exit_code(ErrorCode::kOutOfMemory), 5);
   EXPECT_EQ(exit_code(kCannotWrite), 6);
+  EXPECT_EQ(exit_code(kDiskFails), 6);
   EXPECT_EQ(exit_code(kCheckFailed), 7);
   EXPECT_EQ(exit_code(ErrorCode::kInterrupted), 130);
 }
@@ -122,6 +123,7 @@ TEST(Messages, AUsageErrorPointsAtTheHelpOfItsCommand) {
     return testing::internal::GetCapturedStderr();
   };
   EXPECT_EQ(printed(Command::kExtract), "medial-vk: no\nTry medial-vk --help.\n");
+  EXPECT_EQ(printed(Command::kBatch), "medial-vk: no\nTry medial-vk batch --help.\n");
   EXPECT_EQ(printed(Command::kSpheres), "medial-vk: no\nTry medial-vk spheres --help.\n");
   EXPECT_EQ(printed(Command::kRobotSpheres), "medial-vk: no\nTry medial-vk spheres --help.\n");
   EXPECT_EQ(printed(Command::kDistance), "medial-vk: no\nTry medial-vk distance --help.\n");

@@ -134,7 +134,7 @@ TEST_F(OutputAtomicFile, AFullDiskLeavesNothing) {
   const OutputFile files[] = {{path("new"), "x"}, {"/dev/full", "y"}};
   const Status status = write_files(files);
   ASSERT_FALSE(status.ok());
-  EXPECT_EQ(status.error().code, kCannotWrite);
+  EXPECT_EQ(status.error().code, kDiskFails);
   EXPECT_THAT(names(), IsEmpty());
 }
 

@@ -1,0 +1,190 @@
+#include "cli/batch/find_meshes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include "cli/terminal/interrupt.h"
+#include "cli/terminal/messages.h"
+#include "common/file_extension.h"
+#include "input/csv_lines.h"
+#include "scene_files/scene_formats.h"
+
+namespace medial_vk::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string name_of_path(const fs::path& given, const fs::path& file) {
+  const fs::path normal = given.lexically_normal();
+  if (normal.is_relative() && !normal.empty() && *normal.begin() != "..") return normal.string();
+  std::error_code error;
+  return fs::absolute(file, error).lexically_normal().relative_path().string();
+}
+
+std::string in_one_line(const std::string& name) {
+  std::string line;
+  for (const char c : name) line += c == '\n' ? std::string("\\n") : c == '\r' ? std::string("\\r") : std::string(1, c);
+  return line;
+}
+
+/// Whether `folder` is `output` or in it.
+bool lies_in(const fs::path& folder, const fs::path& output) {
+  const fs::path inner = real_path(folder.string()), outer = real_path(output.string());
+  return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
+}
+
+/// Whether this command has written its table there, of whatever version.
+bool holds_table(const fs::path& folder) {
+  constexpr std::string_view kStart = "name,state,error,";
+  std::ifstream file(folder / "batch.csv", std::ios::binary);
+  std::string start(kStart.size(), ' ');
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  return file && start == kStart;
+}
+
+Error folder_error(const fs::path& folder, const std::error_code& error) {
+  return {ErrorCode::kInvalidMesh, fmt::format("{}: {}", folder.string(), error.message())};
+}
+
+class MeshSearch {
+ public:
+  MeshSearch(const std::vector<std::string>& inputs, fs::path output)
+      : output_(std::move(output)), is_single_(inputs.size() == 1) {}
+
+  Status add_input(const std::string& input) {
+    if (input == "-") return add_list(input);
+    std::error_code error;
+    const fs::file_status status = fs::status(input, error);
+    if (!fs::exists(status) || status.type() == fs::file_type::unknown) return folder_error(input, error);
+    if (fs::is_directory(status)) return add_folder(input);
+    return file_extension(input) == ".txt" ? add_list(input) : add_mesh(input, input);
+  }
+
+  std::vector<BatchMesh> take() { return std::move(meshes_); }
+
+ private:
+  Status add_folder(const std::string& folder) {
+    if (lies_in(folder, output_)) {
+      return Error{ErrorCode::kUsage, fmt::format("results in {} would be among the meshes of {}: name another folder",
+                                                  output_.string(), folder)};
+    }
+    std::vector<fs::path> found;
+    std::vector<fs::path> folders = {folder};
+    while (!folders.empty()) {
+      const fs::path next = std::move(folders.back());
+      folders.pop_back();
+      if (Status status = look_into(next, folders, found); !status) return status;
+    }
+    std::sort(found.begin(), found.end());
+    for (const fs::path& file : found) {
+      const fs::path named = is_single_ ? file.lexically_relative(folder) : file;
+      if (Status status = add_mesh(named, file.string()); !status) return status;
+    }
+    return {};
+  }
+
+  Status look_into(const fs::path& folder, std::vector<fs::path>& folders, std::vector<fs::path>& found) const {
+    std::error_code error;
+    fs::directory_iterator at(folder, error);
+    for (const fs::directory_iterator end; !error && at != end; at.increment(error)) {
+      const fs::path& path = at->path();
+      const std::string name = path.filename().string();
+      if (name.starts_with('.')) continue;
+      std::error_code unknown;
+      if (fs::is_directory(at->symlink_status(unknown))) {
+        if (!fs::equivalent(path, output_, unknown) && !holds_table(path)) folders.push_back(path);
+      } else if (may_be_mesh(*at) && is_name_of_mesh(name) && !name.ends_with(".medial.ply")) {
+        found.push_back(path);
+      }
+    }
+    if (error) return folder_error(folder, error);
+    return {};
+  }
+
+  /// A link that leads nowhere, or in a circle, is recorded as a failure; pipes, devices and links to folders are no
+  /// meshes.
+  static bool may_be_mesh(const fs::directory_entry& entry) {
+    std::error_code unknown;
+    const fs::file_status behind = entry.status(unknown);
+    if (fs::is_regular_file(behind)) return true;
+    const bool is_reached = fs::exists(behind) && behind.type() != fs::file_type::unknown;
+    return !is_reached && fs::is_symlink(entry.symlink_status(unknown));
+  }
+
+  Status add_list(const std::string& list) {
+    const Result<std::string> text = [&]() -> Result<std::string> {
+      const EndAtOnce guard;  // a pipe may wait
+      if (interrupted()) return stopped();
+      return read_table(list);
+    }();
+    if (!text) return text.error();
+    const fs::path folder = list == "-" ? fs::path() : fs::path(list).parent_path();
+    for (CsvLines lines(text.value()); lines.next();) {
+      const fs::path given(lines.line());
+      const fs::path file = folder / given;
+      const std::string line = fmt::format("{}:{}", list == "-" ? "stdin" : list, lines.number());
+      if (given == "-") {
+        return Error{ErrorCode::kUsage,
+                     fmt::format("{}: - is no path; a list from standard input is an input of its own", line)};
+      }
+      std::error_code unknown;
+      if (fs::is_directory(file, unknown)) {
+        return Error{ErrorCode::kUsage, fmt::format("{}: {} is a folder; lists hold meshes, and folders are inputs of "
+                                                    "their own",
+                                                    line, file.string())};
+      }
+      if (Status status = add_mesh(given, file.string()); !status) return status;
+    }
+    return {};
+  }
+
+  Status add_mesh(const fs::path& given, const std::string& file) {
+    std::string real = real_path(file);
+    if (!files_.insert(real).second) return {};
+    const std::string path = name_of_path(given, file);
+    const std::string name = in_one_line(path);
+    const auto [at, is_new] = of_name_.try_emplace(name, meshes_.size());
+    if (!is_new) {
+      return Error{ErrorCode::kUsage, fmt::format("the results of {} and {} would have one name, {}",
+                                                  meshes_[at->second].file, file, name)};
+    }
+    meshes_.push_back({file, name, std::move(real), name == path ? "" : "its name has several lines"});
+    return {};
+  }
+
+  fs::path output_;
+  bool is_single_;
+  std::vector<BatchMesh> meshes_;
+  std::unordered_set<std::string> files_;
+  std::unordered_map<std::string, std::size_t> of_name_;
+};
+
+}  // namespace
+
+std::string real_path(const std::string& path) {
+  std::error_code error;
+  const fs::path whole = fs::absolute(path, error);
+  const fs::path real = fs::weakly_canonical(whole, error);
+  return error ? whole.lexically_normal().string() : real.string();
+}
+
+Result<std::vector<BatchMesh>> find_meshes(const std::vector<std::string>& inputs, const std::string& output) {
+  MeshSearch search(inputs, output);
+  for (const std::string& input : inputs) {
+    if (Status status = search.add_input(input); !status) return status.error();
+  }
+  std::vector<BatchMesh> meshes = search.take();
+  if (meshes.empty())
+    return Error{ErrorCode::kInvalidMesh, fmt::format("there is no mesh in {}", fmt::join(inputs, ", "))};
+  return meshes;
+}
+
+}  // namespace medial_vk::cli
