@@ -7,6 +7,10 @@
 # user is an error, so there are no cycles.
 #   medial_vk_add_room_link_check()   the target medial_vk_linked_rooms
 # Each room as a whole shared object that links only the rooms that it uses: the linker rejects missing symbols.
+set(MEDIAL_VK_FMT fmt::fmt)
+if(MEDIAL_VK_PORTABLE_MODULE)
+  set(MEDIAL_VK_FMT fmt::fmt-header-only)  # Debian has no static library of it
+endif()
 set(MEDIAL_VK_ROOMS_FILE ${CMAKE_CURRENT_LIST_DIR}/rooms.txt)
 
 function(medial_vk_room_target room result)
@@ -89,14 +93,14 @@ function(_medial_vk_use_room_headers target part short)
   elseif(short)
     set(holder medial_vk_short_tool_headers)
     list(APPEND headers <filesystem> <fmt/format.h> <nlohmann/json.hpp>)
-    target_link_libraries(${target} PRIVATE fmt::fmt nlohmann_json::nlohmann_json)  # for their definitions
+    target_link_libraries(${target} PRIVATE ${MEDIAL_VK_FMT} nlohmann_json::nlohmann_json)  # for their definitions
   else()
     set(holder medial_vk_tool_headers)
   endif()
   if(NOT TARGET ${holder})
     medial_vk_precompile_headers(${holder} ${headers})
     if(holder STREQUAL "medial_vk_short_tool_headers")
-      target_link_libraries(${holder} PRIVATE fmt::fmt nlohmann_json::nlohmann_json)
+      target_link_libraries(${holder} PRIVATE ${MEDIAL_VK_FMT} nlohmann_json::nlohmann_json)
       _medial_vk_optimise_little(${holder})
     endif()
   endif()
@@ -108,6 +112,7 @@ function(_medial_vk_add_room room type)
   foreach(key FOLDER PART USES LINKS APART SHORT)
     get_property(${key} GLOBAL PROPERTY MEDIAL_VK_ROOM_${room}_${key})
   endforeach()
+  list(TRANSFORM LINKS REPLACE "^fmt::fmt$" "${MEDIAL_VK_FMT}")
   file(GLOB sources CONFIGURE_DEPENDS ${FOLDER}/*.cpp ${FOLDER}/*.c)
   list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")  # a program's own
   add_library(${target} ${type} ${sources})
