@@ -1,14 +1,15 @@
 // The form beside the canvas, the keys, and the selection.
 import {vertexValues} from './boundary.js';
 import {kAttributes, kSheetColours, kViridisCss, sheetColour} from './colours.js';
+import {refreshCut} from './cut.js';
 import {brief, grouped, lengthFormat} from './format.js';
-import {bindDialogs, bindFold, bindKeys, byId, followTheme, rows} from './page_parts.js';
+import {barOf, swatchesOf} from './legend.js';
+import {bindDialogs, bindFold, bindKeys, byId, followTheme, onClick, rows} from './page_parts.js';
 import {kStrokesNote} from './strokes.js';
 import {kLayers} from './viewer.js';
 
 const kStep = Math.PI / 36;      // One press of an arrow key.
 const kFirstBalls = 400;         // Drawn at first: enough to fill a shape, few enough to distinguish.
-const kClick = 4;                // Pixels that the mouse may move in a click.
 
 function rangeOf(numbers) {
   let least = Infinity, greatest = -Infinity;
@@ -162,63 +163,24 @@ export class Controls {
     const colour = this.scene.boundary?.colours.find(({name}) => name === byId('mesh-colour').value);
     if (!colour) return [];
     const title = Object.assign(document.createElement('p'), {textContent: colour.title});
-    if (colour.bar.length > 0) return [title, ...this.barOf(colour.bar, [colour.least, colour.greatest])];
-    const list = document.createElement('ul');
-    for (const [css, name] of colour.swatches) {
-      const swatch = document.createElement('i'), item = document.createElement('li');
-      swatch.style.background = css;
-      item.append(swatch, name);
-      list.append(item);
-    }
-    return [title, list];
+    if (colour.bar.length > 0) return [title, ...barOf(colour.bar, [colour.least, colour.greatest])];
+    return [title, swatchesOf(colour.swatches)];
   }
 
   bar(least, greatest) {
-    return this.barOf(kViridisCss, [least, (least + greatest) / 2, greatest].map(brief));
-  }
-
-  /** `colours` of CSS from end to end; `numbers` as text. */
-  barOf(colours, numbers) {
-    const bar = document.createElement('div'), ends = document.createElement('div');
-    bar.className = 'bar';
-    bar.style.background = `linear-gradient(to right, ${colours.join(', ')})`;
-    ends.className = 'ends';
-    ends.append(...numbers.map((text) => Object.assign(document.createElement('span'), {textContent: text})));
-    return [bar, ends];
+    return barOf(kViridisCss, [least, (least + greatest) / 2, greatest].map(brief));
   }
 
   /** Sheets by number; if they outnumber the colours, the colours repeat. */
   swatches() {
     const numbers = [...new Set(this.scene.sheets)].sort((a, b) => a - b);
-    const list = document.createElement('ul');
-    for (const sheet of numbers.slice(0, kSheetColours + 1)) {
-      const item = document.createElement('li'), swatch = document.createElement('i');
-      swatch.style.background = sheetColour(sheet);
-      item.append(swatch, sheet < 0 ? 'none (sheets not grown)' : String(sheet));
-      list.append(item);
-    }
-    const more = numbers.length - (kSheetColours + 1);
-    if (more > 0) list.append(Object.assign(document.createElement('li'), {textContent: `and ${grouped(more)} more`}));
-    return [list];
+    const rows = numbers.slice(0, kSheetColours + 1)
+      .map((sheet) => [sheetColour(sheet), sheet < 0 ? 'none (sheets not grown)' : String(sheet)]);
+    const more = numbers.length - rows.length;
+    return [swatchesOf(more > 0 ? [...rows, [null, `and ${grouped(more)} more`]] : rows)];
   }
 
-  refreshCut() {
-    const {lower, upper, origin, scale} = this.scene;
-    const axis = Number(byId('cut-axis').value);
-    const share = byId('cut-offset').value / 1000;
-    const place = lower[axis] + share * (upper[axis] - lower[axis]);
-    const flipped = byId('cut-flip').checked;
-    byId('cut-offset-value').textContent = `${'xyz'[axis]} ${flipped ? '≥' : '≤'} ${this.length(place)}`;
-    for (const id of ['cut-axis', 'cut-flip', 'cut-offset']) byId(id).disabled = !byId('cut').checked;
-    if (!byId('cut').checked) {
-      this.viewer.setPlane([0, 0, 0, 1]);
-    } else {
-      const sign = flipped ? 1 : -1;
-      const plane = [0, 0, 0, -sign * (place - origin[axis]) / scale];
-      plane[axis] = sign;
-      this.viewer.setPlane(plane);
-    }
-  }
+  refreshCut() { refreshCut(this.scene, this.length, this.viewer); }
 
   /** The smallest value of a slider lets everything pass, for any rounding. */
   leastOf(id, range) {
@@ -274,15 +236,7 @@ export class Controls {
   }
 
   bindCanvas() {
-    const canvas = this.viewer.canvas;
-    let down = null;
-    canvas.addEventListener('pointerdown', (event) => { down = event.button === 0 ? [event.clientX, event.clientY] : null; });
-    canvas.addEventListener('pointerup', (event) => {
-      const moved = down ? Math.hypot(event.clientX - down[0], event.clientY - down[1]) : Infinity;
-      down = null;
-      if (moved > kClick) return;
-      const {left, top} = canvas.getBoundingClientRect();
-      const place = [event.clientX - left, event.clientY - top];
+    onClick(this.viewer.canvas, (...place) => {
       const isOpaque = this.viewer.isPainted && Number(byId('opacity').value) === 100;
       if (!isOpaque) this.choose(this.viewer.pickAt(...place));
       if (isOpaque || this.pickedPoint < 0) this.chooseVertex(this.viewer.vertexAt(...place));

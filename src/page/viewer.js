@@ -1,11 +1,12 @@
 // The canvas of the page of a run: layers, cut, filter and picking.
-import {Matrix4, Plane, Vector3} from 'three';
+import {Vector3} from 'three';
 
-import {cornerColours, vertexOnRay} from './boundary.js';
+import {cornerColours} from './boundary.js';
 import {kAttributes, kThemes} from './colours.js';
 import {kCornersOfABall, MeshLayer} from './kernels.js';
 import {makeUniforms, PickedLayer, PointLayers} from './layers.js';
 import {pick} from './pick.js';
+import {hitOnRay} from './ray.js';
 import {makeStrokes} from './strokes.js';
 import {creaseGeometry, surfaceGeometry} from './surface.js';
 import {View} from './view.js';
@@ -30,7 +31,6 @@ export class Viewer extends View {
     this.model.add(...this.mesh.objects, ...this.picked.objects);
     this.shown = {mesh: true, balls: false, points: false, spokes: false, sheets: false};
     this.hasStrokes = false;
-    this.plane = [0, 0, 0, 1];
     this.least = {angle: -Infinity, radius: -Infinity};
     this.ballCount = 0;
     this.drawnBalls = 0;  // The first of those, as many as the device can draw in time.
@@ -91,12 +91,6 @@ export class Viewer extends View {
     this.draw();
   }
 
-  /** The side where dot(plane, p) + plane[3] >= 0 is kept, in the model. */
-  setPlane(plane) {
-    this.plane = plane;
-    this.draw();
-  }
-
   setBallCount(count) {
     this.ballCount = count;
     this.draw();
@@ -144,21 +138,10 @@ export class Viewer extends View {
     return [(place.x + 1) / 2 * clientWidth, (1 - place.y) / 2 * clientHeight];
   }
 
-  /** The ray through a position of the canvas, in CSS pixels, in the model. */
-  rayAt(x, y) {
-    const {clientWidth, clientHeight} = this.canvas;
-    this.root.updateMatrixWorld();
-    const inverse = new Matrix4().copy(this.model.matrixWorld).invert();
-    const origin = this.camera.position.clone();
-    const direction = new Vector3(2 * x / clientWidth - 1, 1 - 2 * y / clientHeight, 0.5).unproject(this.camera)
-      .sub(origin).transformDirection(inverse);
-    return {origin: origin.applyMatrix4(inverse).toArray(), direction: direction.toArray()};
-  }
-
   /** The vertex at a position of the canvas, if the mesh is painted; -1: none. */
   vertexAt(x, y) {
     if (!this.isPainted || !this.shown.mesh) return -1;
-    return vertexOnRay(this.scene, this.rayAt(x, y), this.plane);
+    return hitOnRay(this.scene, this.rayAt(x, y), this.plane)?.vertex ?? -1;
   }
 
   /** The point or ball at a position of the canvas, in CSS pixels; -1: none. */
@@ -219,16 +202,5 @@ export class Viewer extends View {
   drawn(atRest) {
     this.learnPace(atRest);
     if (atRest) this.onRest?.();
-  }
-
-  updatePlane() {
-    const [x, y, z, w] = this.plane;
-    if (x === 0 && y === 0 && z === 0) {
-      this.uniforms.cutPlane.value.set(0, 0, 0, 1);
-      return;
-    }
-    const toView = new Matrix4().multiplyMatrices(this.camera.matrixWorldInverse, this.model.matrixWorld);
-    const plane = new Plane(new Vector3(x, y, z), w).applyMatrix4(toView);
-    this.uniforms.cutPlane.value.set(plane.normal.x, plane.normal.y, plane.normal.z, plane.constant);
   }
 }

@@ -46,6 +46,8 @@ Output:
       --ascii           PLY as text
       --picture FILE    a .png with the sites, and the surface in a colour for
                         each pair
+      --html FILE       a page for a browser: sites, faces by pair, roadmap; a
+                        click shows pair, distance and directions
       --view FROM       front, back, left, right, top, bottom, iso or x,y,z
       --up AXIS         the axis that points up: x, y, z, -x, -y or -z
       --size WxH        of the picture, in pixels

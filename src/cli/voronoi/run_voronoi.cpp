@@ -17,9 +17,12 @@
 #include "cli/voronoi/plane_sites.h"
 #include "cli/voronoi/voronoi_summary.h"
 #include "output/atomic_files/atomic_file.h"
+#include "output/page/page.h"
 #include "output/plane_files/plane_files.h"
+#include "output/plane_page/plane_page.h"
 #include "output/plane_picture/plane_picture.h"
 #include "output/site_files/site_files.h"
+#include "output/site_page/site_page.h"
 #include "output/site_picture/site_picture.h"
 #include "reference_bridge/check_site_voronoi.h"
 
@@ -32,6 +35,9 @@ class VoronoiRun {
   explicit VoronoiRun(const VoronoiCommandOptions& options) : options_(options), progress_(!options.quiet) {}
 
   Status run() {
+    if (!options_.html.empty()) {
+      if (Status status = check_page_available(); !status) return status;
+    }
     for (const NamedOutput& output : outputs_of(options_)) {
       if (output.file->empty()) continue;
       if (Status status = check_writable(*output.file); !status) return status;
@@ -167,6 +173,9 @@ class VoronoiRun {
       if (!png) return png.error();
       files_.push_back({options_.picture, std::move(png).value()});
     }
+    if (!options_.html.empty()) {
+      files_.push_back({options_.html, encode_site_page(record_, sites_, options_.picture_options.view.up)});
+    }
     progress_.clear();
     times_.push_back({"files", stopwatch.lap()});
     if (!options_.report.empty()) files_.push_back({options_.report, voronoi_report(record_, times_)});
@@ -209,6 +218,7 @@ class VoronoiRun {
       if (!png) return png.error();
       files_.push_back({options_.picture, std::move(png).value()});
     }
+    if (!options_.html.empty()) files_.push_back({options_.html, encode_plane_page(plane_)});
     times_.push_back({"files", stopwatch.lap()});
     if (!options_.report.empty()) files_.push_back({options_.report, plane_sites_report(plane_, times_)});
     return {};

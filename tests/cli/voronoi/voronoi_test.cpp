@@ -137,6 +137,19 @@ TEST_F(VoronoiCommand, ShapesOfThePlaneHaveCurvesBetweenThem) {
   EXPECT_THAT(crossing.err, HasSubstr("must be apart"));
 }
 
+TEST_F(VoronoiCommand, PagesAreWrittenBesideTheResult) {
+  write_file(scratch_.path("one.csv"), "x,y\n0,0\n1,0\n1,1\n0,1\n");
+  write_file(scratch_.path("two.csv"), "x,y\n3,0\n4,0\n4,1\n3,1\n");
+  const ToolResult space = run({"a.obj", "b.obj", "--resolution", "16", "-q", "--html", "v.html"});
+  if (space.exit_code == 2 && space.err.find("was built without its page") != std::string::npos) GTEST_SKIP();
+  ASSERT_EQ(space.exit_code, 0) << space.err;
+  // tests/page shows what is in it.
+  EXPECT_THAT(read_file(scratch_.path("v.html")), HasSubstr(R"("sites":[{"name":"a","kind":"solid"})"));
+  ASSERT_EQ(run({"one.csv", "two.csv", "-q", "--html", "p.html"}).exit_code, 0);
+  EXPECT_THAT(read_file(scratch_.path("p.html")), HasSubstr(R"("branches",1])"));
+  EXPECT_EQ(run({"a.obj", "b.obj", "--html", "v.htm"}).exit_code, 2);
+}
+
 TEST_F(VoronoiCommand, ShapesOfThePlaneThatTouchAreRefused) {
   const std::string square = "x,y\n0,0\n1,0\n1,1\n0,1\n";
   const std::string triangle = "x,y\n0,0\n1,0\n0.5,1\n";

@@ -91,6 +91,7 @@ void declare_voronoi(CLI::App& app, VoronoiCommandOptions& options, CoordinateTe
   add.view("--view", view);
   add.up("--up", options.picture_options.view.up);
   add.size("--size", options.picture_options.size);
+  add.text("--html", "file", options.html);
   add.text("--report", "file", options.report);
   add.text("--roadmap", "file", options.roadmap);
   add.text("--from", "numbers", texts.from);
@@ -144,7 +145,7 @@ Status check_site_files(const VoronoiCommandOptions& options) {
       return usage_error(fmt::format("{}: '{}' does not end in .json", option, *file));
     }
   }
-  if (Status status = check_view_files(options.picture, {}); !status) return status;
+  if (Status status = check_view_files(options.picture, options.html); !status) return status;
   for (const std::string& file : options.files) {
     if (Status status = check_outputs_differ(outputs_of(options), file); !status) return status;
   }
@@ -177,6 +178,7 @@ SitesFormat VoronoiCommandOptions::format() const {
 std::vector<NamedOutput> outputs_of(const VoronoiCommandOptions& options) {
   return {{"--output", &options.output},
           {"--picture", &options.picture},
+          {"--html", &options.html},
           {"--report", &options.report},
           {"--roadmap", &options.roadmap}};
 }
@@ -218,7 +220,8 @@ Result<VoronoiCommandOptions> VoronoiOptionParser::parse(const std::vector<std::
   if (Status status = choose_dimension(declared_->texts, options); !status) return status.error();
   if (options.from.has_value() != options.to.has_value()) return usage_error("--from and --to are used together");
   if (options.from && options.roadmap.empty()) return usage_error("--from and --to are about --roadmap");
-  if (Status status = take_view(declared_->view, !options.picture.empty(), options.picture_options.view); !status) {
+  const bool is_drawn = !options.picture.empty() || !options.html.empty();
+  if (Status status = take_view(declared_->view, is_drawn, options.picture_options.view); !status) {
     return status.error();
   }
   if (options.in_plane && options.picture_options != PictureOptions()) {
