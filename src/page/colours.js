@@ -46,4 +46,5 @@ export const kAttributes = {
   radius: {component: 1, label: 'radius (units of the mesh)'},
   flux: {component: 2, label: 'flux (no unit)'},
   sheet: {component: 3, label: 'sheet (number)'},
+  side: {component: 4, label: 'side of the mesh'},
 };

@@ -11,6 +11,8 @@ import {kLayers} from './viewer.js';
 const kStep = Math.PI / 36;      // One press of an arrow key.
 const kFirstBalls = 400;         // Drawn at first: enough to fill a shape, few enough to distinguish.
 
+const kSides = ['inside', 'outside'];
+
 function rangeOf(numbers) {
   let least = Infinity, greatest = -Infinity;
   for (const x of numbers) {
@@ -42,6 +44,7 @@ export class Controls {
       radius: rangeOf(scene.radii),
       flux: rangeOf(scene.fluxes),
       sheet: rangeOf(scene.sheets),
+      side: [0, 1],
     };
     // Angles are shown between the threshold and the greatest value, as in --picture.
     this.colourRanges = {...this.ranges, angle: [Math.min(this.report.parameters.object_angle, this.ranges.angle[0]),
@@ -59,6 +62,8 @@ export class Controls {
     this.viewer.onRest = () => this.sayBalls();
     // On a narrow screen the legend is a strip across the picture.
     this.viewer.stripBelow = () => (byId('legend').offsetWidth === byId('stage').clientWidth ? byId('legend').offsetHeight : 0);
+    byId('offer-side').hidden = scene.inside_points === null;
+    byId('colour-side').hidden = scene.inside_points === null;
     this.offerColours();
     this.refresh();
     byId('up').value = scene.up;
@@ -69,7 +74,7 @@ export class Controls {
     for (const name of kLayers) {
       byId(`layer-${name}`).addEventListener('change', (event) => this.viewer.showLayer(name, event.target.checked));
     }
-    for (const id of ['opacity', 'ball-count', 'colour-by', 'least-angle', 'least-radius', 'cut', 'cut-axis',
+    for (const id of ['opacity', 'ball-count', 'colour-by', 'side', 'least-angle', 'least-radius', 'cut', 'cut-axis',
       'cut-flip', 'cut-offset']) {
       byId(id).addEventListener('input', () => this.refresh());
     }
@@ -151,7 +156,8 @@ export class Controls {
     const title = document.createElement('p');
     title.textContent = kAttributes[attribute].label;
     legend.replaceChildren(...this.legendOfMesh(), title,
-      ...(attribute === 'sheet' ? this.swatches() : this.bar(scale * least, scale * greatest)));
+      ...(attribute === 'sheet' ? this.swatches() : attribute === 'side' ? [swatchesOf(kSides.map((side, i) => [sheetColour(i), side]))]
+        : this.bar(scale * least, scale * greatest)));
   }
 
   legendOfMesh() {
@@ -194,6 +200,7 @@ export class Controls {
     byId('least-angle-value').textContent = `${Math.max(angle, this.ranges.angle[0]).toFixed(3)} rad`;
     byId('least-radius-value').textContent = brief(Math.max(radius, this.ranges.radius[0]) * this.scene.scale);
     this.viewer.setLeast(angle, radius);
+    if (this.scene.inside_points !== null) this.viewer.setSide(byId('side').value);
     byId('count').textContent = `${grouped(this.viewer.countVisible())} of ${grouped(this.scene.points)} points shown`;
   }
 
@@ -215,6 +222,7 @@ export class Controls {
     const angle = scene.angles[i];
     return [
       ['point', String(i)],
+      ...(scene.inside_points === null ? [] : [['side', kSides[Number(i >= scene.inside_points)]]]),
       ['centre', [place(0), place(1), place(2)].join(', ')],
       ['radius', this.length(scene.scale * scene.radii[i])],
       ['object angle', `${angle.toFixed(6)} rad (${(angle * 180 / Math.PI).toFixed(1)}°)`],

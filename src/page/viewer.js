@@ -17,12 +17,21 @@ export const kLayers = ['mesh', 'balls', 'points', 'spokes', 'sheets'];
 const kTurningTime = 40, kRestingTime = 700;
 const kFirstPace = 3e4, kLeastPace = 3e3;  // Pixels of balls per millisecond: first of a slow device, then measured.
 
+/** The mesh, and the points where some of them are outside of it. */
+function inFirstView({vertices, centres, outside}) {
+  if (!outside) return vertices;
+  const all = new Float32Array(vertices.length + centres.length);
+  all.set(vertices);
+  all.set(centres, vertices.length);
+  return all;
+}
+
 export class Viewer extends View {
   /** `context`: of WebGL 2, without antialiasing. */
   constructor(canvas, context, scene) {
     const half = [0, 1, 2].map((k) => (scene.upper[k] - scene.lower[k]) / 2 / scene.scale);
     const surface = surfaceGeometry(scene);
-    super(canvas, context, makeUniforms(scene), {vertices: scene.vertices, half});
+    super(canvas, context, makeUniforms(scene), {vertices: inFirstView(scene), half});
     this.scene = scene;
     this.mesh = new MeshLayer(surface, this.uniforms);
     this.makeStrokes = () => makeStrokes(scene, surface, this.uniforms, Math.hypot(...half));
@@ -32,6 +41,7 @@ export class Viewer extends View {
     this.shown = {mesh: true, balls: false, points: false, spokes: false, sheets: false};
     this.hasStrokes = false;
     this.least = {angle: -Infinity, radius: -Infinity};
+    this.range = [0, scene.points];  // Of the points that are shown: those inside of the mesh come first.
     this.ballCount = 0;
     this.drawnBalls = 0;  // The first of those, as many as the device can draw in time.
     this.pace = kFirstPace;
@@ -91,13 +101,22 @@ export class Viewer extends View {
     this.draw();
   }
 
+  /** `side`: "inside", "outside" or "both". */
+  setSide(side) {
+    const {inside_points: inside, points} = this.scene;
+    this.range = [side === 'outside' ? inside : 0, side === 'inside' ? inside : points];
+    this.uniforms.shownPoints.value.set(...this.range);
+    this.draw();
+  }
+
   setBallCount(count) {
     this.ballCount = count;
     this.draw();
   }
 
   passesFilter(i) {
-    return this.scene.angles[i] >= this.least.angle && this.scene.radii[i] >= this.least.radius;
+    const {angles, radii} = this.scene;
+    return angles[i] >= this.least.angle && radii[i] >= this.least.radius && i >= this.range[0] && i < this.range[1];
   }
 
   centre(i) { return Array.from(this.scene.centres.subarray(3 * i, 3 * i + 3)); }
@@ -109,10 +128,10 @@ export class Viewer extends View {
   }
 
   countVisible() {
-    const {centres, angles, radii, points} = this.scene;
+    const {centres, angles, radii} = this.scene;
     const [x, y, z, w] = this.plane;
     let count = 0;
-    for (let i = 0; i < points; ++i) {
+    for (let i = this.range[0]; i < this.range[1]; ++i) {
       const kept = x * centres[3 * i] + y * centres[3 * i + 1] + z * centres[3 * i + 2] + w >= 0;
       if (kept && angles[i] >= this.least.angle && radii[i] >= this.least.radius) ++count;
     }
