@@ -228,10 +228,51 @@ TEST_F(VoronoiCommand, WrongUseAndInvalidSitesHaveTheirExitCodes) {
 
 TEST_F(VoronoiCommand, OverlapsAreReported) {
   write_file(scratch_.path("c.obj"), test::to_obj(test::moved(test::make_box({1, 1, 1}), {0.6, 0.3, 0.2})));
-  const ToolResult result = run({"a.obj", "c.obj", "--resolution", "16", "--report", "r.json"});
+  const ToolResult result =
+      run({"a.obj", "c.obj", "--resolution", "16", "--margin", "0.5", "--report", "r.json", "-o", "v.json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.err, HasSubstr("a and c overlap"));
-  EXPECT_EQ(json_of("r.json")["surface"]["overlaps"], nlohmann::json({{0, 1}}));
+  const auto report = json_of("r.json"), surface = json_of("v.json");
+  EXPECT_EQ(report["surface"]["overlaps"], nlohmann::json({{0, 1}}));
+  const auto& listed = report["voxels"]["overlapping"];
+  ASSERT_FALSE(surface["overlapping"].empty());
+  EXPECT_EQ(listed["count"], surface["overlapping"].size());
+  EXPECT_EQ(report["surface"]["overlapping_voxels"], surface["overlapping"].size());
+  ASSERT_EQ(listed["first"].size(), std::min<std::size_t>(surface["overlapping"].size(), 1000));
+  // A voxel that overlaps is near both boxes: within half of its diagonal and that of its neighbours.
+  const double reach = 1.5 * std::sqrt(3.0) * surface["grid"]["voxel_side"].get<double>();
+  const std::array<double, 3> lower = {0.6, 0.3, 0.2};
+  for (std::size_t i = 0; i < listed["first"].size(); ++i) {
+    EXPECT_EQ(listed["first"][i]["voxel"], surface["overlapping"][i]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double middle = listed["first"][i]["middle"][k];
+      EXPECT_GE(middle, lower[k] - reach);
+      EXPECT_LE(middle, 1 + reach);
+    }
+  }
+}
+
+TEST_F(VoronoiCommand, TiedVoxelsAreListedUpToALimit) {
+  // Two triangles with a common edge along x: on the far side of it, both are as near by the same points of it.
+  const std::vector<std::string> sites = {"--triangle", "0,0,0,1,0,0,0.5,1,0", "--triangle", "0,0,0,1,0,0,0.5,0,1"};
+  std::vector<std::string> arguments = sites;
+  arguments.insert(arguments.end(), {"--resolution", "40", "--report", "r.json", "-o", "v.npz"});
+  const ToolResult result = run(arguments);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto report = json_of("r.json");
+  const auto& tied = report["voxels"]["tied"];
+  ASSERT_GT(tied["count"].get<std::size_t>(), 1000u);
+  EXPECT_EQ(tied["first"].size(), 1000u);
+  EXPECT_EQ(report["voxels"]["listed_at_most"], 1000);
+  const double half = 0.5 * report["grid"]["voxel_side"].get<double>();
+  for (const auto& voxel : tied["first"]) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double middle =
+          report["grid"]["origin"][k].get<double>() + (2 * voxel["voxel"][k].get<double>() + 1) * half;
+      EXPECT_NEAR(voxel["middle"][k].get<double>(), middle, 1e-12);
+    }
+  }
+  EXPECT_THAT(read_file(scratch_.path("v.npz")), HasSubstr("tied.npy"));
 }
 
 }  // namespace
