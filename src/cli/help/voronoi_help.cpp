@@ -55,11 +55,11 @@ Output:
                         link with the radius of a ball that passes, proved
       --from X,Y,Z, --to X,Y,Z
                         in the roadmap: the path between two places with the
-                        greatest width on this graph
+                        greatest width on this graph; in the plane X,Y
       --report FILE     numbers of sites, surface and run as JSON; "-": standard
                         output
       --check           test every point, and samples of the surface, with the
-                        CPU reference
+                        CPU reference; in the plane the curves and the widths
 
 Other:
       --threads N       CPU threads, 0 for all (default 0)

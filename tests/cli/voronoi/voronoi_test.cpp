@@ -178,15 +178,60 @@ TEST_F(VoronoiCommand, ShapesOfThePlaneThatTouchAreRefused) {
 TEST_F(VoronoiCommand, OptionsOfSpaceAreRefusedInThePlane) {
   write_file(scratch_.path("one.csv"), "x,y\n0,0\n1,0\n1,1\n0,1\n");
   write_file(scratch_.path("two.csv"), "x,y\n3,0\n4,0\n4,1\n3,1\n");
-  for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
-           {"--check"}, {"--resolution", "160"}, {"--from", ""}, {"--to", ""}, {"--from", "0,0,0", "--to", "1,1,1"}}) {
+  for (const std::vector<std::string>& options :
+       std::vector<std::vector<std::string>>{{"--resolution", "160"}, {"--split"}, {"--ascii"}}) {
     std::vector<std::string> arguments = {"one.csv", "two.csv"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     const ToolResult result = run(arguments);
     EXPECT_EQ(result.exit_code, 2) << options[0];
-    const bool is_empty = options.back().empty();  // no number, in space neither
-    EXPECT_THAT(result.err, HasSubstr(is_empty ? "'' is not" : "about sites in space"));
+    EXPECT_THAT(result.err, HasSubstr("about sites in space"));
   }
+  // Places of the plane have two numbers.
+  for (const char* place : {"", "1", "1,2,3"}) {
+    const ToolResult result = run({"one.csv", "two.csv", "--roadmap", "m.json", "--from", place, "--to", "2,2"});
+    EXPECT_EQ(result.exit_code, 2) << place;
+    EXPECT_THAT(result.err, HasSubstr("is not")) << place;
+  }
+}
+
+TEST_F(VoronoiCommand, ARoadmapOfThePlaneHasTheExactWidthOfTheGap) {
+  write_file(scratch_.path("one.csv"), "x,y\n0,0\n1,0\n1,1\n0,1\n");
+  write_file(scratch_.path("two.csv"), "x,y\n3,0\n4,0\n4,1\n3,1\n");
+  const ToolResult result = run(
+      {"one.csv", "two.csv", "--roadmap", "m.json", "--from", "2,0", "--to", "2,1", "--check", "--report", "r.json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
+  EXPECT_THAT(result.out, HasSubstr("samples of the exact curves are on the arcs"));
+  EXPECT_THAT(result.out, HasSubstr("no site is nearer to a link or the path than its width"));
+  EXPECT_THAT(result.err, HasSubstr("path      width 1, length 1"));
+  const auto map = json_of("m.json"), report = json_of("r.json"), curves = json_of("one.voronoi.json");
+  // 2 epsilons by proof, and what a node is beside its arc.
+  const double least = 1 - 3 * map["epsilon"].get<double>();
+  EXPECT_LE(map["path"]["width"].get<double>(), 1);
+  EXPECT_GE(map["path"]["width"].get<double>(), least);
+  EXPECT_EQ(map["path"]["line"].front(), nlohmann::json({2.0, 0.0}));
+  EXPECT_EQ(map["components"], 1);
+  EXPECT_EQ(map["nodes"].size(), curves["nodes"].size());
+  ASSERT_EQ(map["links"].size(), curves["arcs"].size());
+  for (const auto& link : map["links"]) {
+    EXPECT_EQ(link["nodes"], curves["arcs"][link["arc"].get<std::size_t>()]["nodes"]);
+    EXPECT_GE(link["width"].get<double>(), least);
+  }
+  EXPECT_EQ(report["path"]["width"], map["path"]["width"]);
+  EXPECT_EQ(report["roadmap"]["links"], map["links"].size());
+  const ToolResult inside = run({"one.csv", "two.csv", "--roadmap", "m.json", "--from", "0.5,0.5", "--to", "2,2"});
+  EXPECT_EQ(inside.exit_code, 2);
+  EXPECT_THAT(inside.err, HasSubstr("--from must be outside of all sites"));
+  // The second shape is in a hole of the first one: from there no curve leads out.
+  write_file(scratch_.path("ring.wkt"), "POLYGON ((-9 -9, 9 -9, 9 9, -9 9, -9 -9), (-3 -3, -3 3, 3 3, 3 -3, -3 -3))");
+  write_file(scratch_.path("core.wkt"), "POLYGON ((-1 -1, 1 -1, 1 1, -1 1, -1 -1))");
+  const ToolResult closed =
+      run({"ring.wkt", "core.wkt", "--roadmap", "m.json", "--from", "2,0", "--to", "10,10", "--check"});
+  ASSERT_EQ(closed.exit_code, 0) << closed.err << closed.out;
+  EXPECT_THAT(closed.err, HasSubstr("none found from 2,0 to 10,10"));
+  const ToolResult around =
+      run({"ring.wkt", "core.wkt", "--roadmap", "m.json", "--from", "1.8,1.8", "--to", "-1.8,-1.8", "--check"});
+  ASSERT_EQ(around.exit_code, 0) << around.err;
+  EXPECT_NEAR(json_of("m.json")["path"]["width"].get<double>(), 1, 1e-3);
 }
 
 TEST_F(VoronoiCommand, APathThatIsNotFoundIsNamed) {
