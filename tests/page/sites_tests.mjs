@@ -118,6 +118,28 @@ export const sitesTests = {
     assertQuiet(page);
   },
 
+  /** In the plane the path is red on the page of the plane. */
+  async path_in_the_plane({workshop, browser}) {
+    workshop.write('room.wkt', 'POLYGON ((-9 -9, 9 -9, 9 9, -9 9, -9 -9), (-3 -3, -3 3, 3 3, 3 -3, -3 -3))');
+    workshop.write('core.wkt', 'POLYGON ((-1 -1, 1 -1, 1 1, -1 1, -1 -1))');
+    workshop.run('voronoi', 'room.wkt', 'core.wkt', '-q', '-o', 'v.json', '--html', 'page.html', '--roadmap', 'map.json',
+      '--from', '2,0.5', '--to', '2,-0.5');
+    const page = await browser.open();
+    await page.load(workshop.url('page.html'));
+    const {path} = JSON.parse(workshop.read('map.json'));
+    assert.deepEqual(await page.evaluate('[...medialVk.drawing.plane.path]'), path.line.flat());
+    const red = await page.evaluate(`(() => { const {drawing} = medialVk; drawing.draw();
+      const ratio = devicePixelRatio, {width, height} = drawing.size();
+      const at = [(width / 2 + (2 - drawing.middle[0]) * drawing.scale) * ratio,
+        (height / 2 + drawing.flip * (0 - drawing.middle[1]) * drawing.scale) * ratio].map(Math.floor);
+      const copy = new OffscreenCanvas(drawing.canvas.width, drawing.canvas.height);
+      const context = copy.getContext('2d', {willReadFrequently: true}); context.drawImage(drawing.canvas, 0, 0);
+      return Array.from(context.getImageData(...at, 1, 1).data); })()`);
+    assert.ok(red[0] > 180 && red[1] < 80 && red[2] < 80, `${red}`);
+    assert.match(await page.text('numbers'), /width of the path/);
+    assertQuiet(page);
+  },
+
   async strange_names(context) {
     const page = await openCubes(context, {names: ['<b>&"strange".obj', 'right.obj']});
     assert.equal(await page.text('name'), '<b>&"strange", right');

@@ -228,9 +228,11 @@ TEST_F(VoronoiCommand, ARoadmapOfThePlaneHasTheExactWidthOfTheGap) {
       run({"ring.wkt", "core.wkt", "--roadmap", "m.json", "--from", "2,0", "--to", "10,10", "--check"});
   ASSERT_EQ(closed.exit_code, 0) << closed.err << closed.out;
   EXPECT_THAT(closed.err, HasSubstr("none found from 2,0 to 10,10"));
-  const ToolResult around =
-      run({"ring.wkt", "core.wkt", "--roadmap", "m.json", "--from", "1.8,1.8", "--to", "-1.8,-1.8", "--check"});
+  const ToolResult around = run({"ring.wkt", "core.wkt", "--roadmap", "m.json", "--from", "1.8,1.8", "--to",
+                                 "-1.8,-1.8", "--check", "-o", "c.svg", "--picture", "c.png"});
   ASSERT_EQ(around.exit_code, 0) << around.err;
+  EXPECT_THAT(read_file(scratch_.path("c.svg")), HasSubstr("stroke=\"#d91a1a\" points=\"1.8,-1.8 "));
+  EXPECT_THAT(read_file(scratch_.path("c.png")).substr(0, 4), "\x89PNG");
   EXPECT_NEAR(json_of("m.json")["path"]["width"].get<double>(), 1, 1e-3);
 }
 
