@@ -11,6 +11,7 @@ import {fileURLToPath} from 'node:url';
 const kPages = {
   page: {html: 'page.html', style: 'page.css', script: 'main.js'},
   motion: {html: 'motion/motion.html', style: 'motion/motion.css', script: 'motion/main.js'},
+  sites: {html: 'sites/sites.html', style: 'sites/sites.css', script: 'sites/main.js'},
   plane: {html: 'plane/plane.html', style: 'plane/plane.css', script: 'plane/main.js'},
 };
 

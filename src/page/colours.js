@@ -13,9 +13,11 @@ export const kSheetColours = kSheets.length;
 const css = ([r, g, b]) => `rgb(${r} ${g} ${b})`;
 export const kViridisCss = kViridis.map(css);
 export const viridisGradient = () => `linear-gradient(to right, ${kViridisCss.join(', ')})`;
-export const sheetColour = (sheet) => sheet < 0 ? 'rgb(140 148 158)' : css(kSheets[sheet % kSheets.length]);
+export const sheetTexel = (sheet) => kSheets[sheet % kSheets.length];
+export const sheetColour = (sheet) => sheet < 0 ? 'rgb(140 148 158)' : css(sheetTexel(sheet));
 
-function viridis(share) {
+/** Red, green and blue from 0 to 255. */
+export function viridis(share) {
   const place = share * (kViridis.length - 1);
   const below = Math.min(Math.floor(place), kViridis.length - 2);
   return kViridis[below].map((c, i) => Math.round(c + (place - below) * (kViridis[below + 1][i] - c)));
@@ -44,4 +46,5 @@ export const kAttributes = {
   radius: {component: 1, label: 'radius (units of the mesh)'},
   flux: {component: 2, label: 'flux (no unit)'},
   sheet: {component: 3, label: 'sheet (number)'},
+  side: {component: 4, label: 'side of the mesh'},
 };

@@ -1,14 +1,17 @@
 // The form beside the canvas, the keys, and the selection.
 import {vertexValues} from './boundary.js';
 import {kAttributes, kSheetColours, kViridisCss, sheetColour} from './colours.js';
+import {refreshCut} from './cut.js';
 import {brief, grouped, lengthFormat} from './format.js';
-import {bindDialogs, bindFold, bindKeys, byId, followTheme, rows} from './page_parts.js';
+import {barOf, swatchesOf} from './legend.js';
+import {bindDialogs, bindFold, bindKeys, byId, followTheme, onClick, rows} from './page_parts.js';
 import {kStrokesNote} from './strokes.js';
 import {kLayers} from './viewer.js';
 
 const kStep = Math.PI / 36;      // One press of an arrow key.
 const kFirstBalls = 400;         // Drawn at first: enough to fill a shape, few enough to distinguish.
-const kClick = 4;                // Pixels that the mouse may move in a click.
+
+const kSides = ['inside', 'outside'];
 
 function rangeOf(numbers) {
   let least = Infinity, greatest = -Infinity;
@@ -41,6 +44,7 @@ export class Controls {
       radius: rangeOf(scene.radii),
       flux: rangeOf(scene.fluxes),
       sheet: rangeOf(scene.sheets),
+      side: [0, 1],
     };
     // Angles are shown between the threshold and the greatest value, as in --picture.
     this.colourRanges = {...this.ranges, angle: [Math.min(this.report.parameters.object_angle, this.ranges.angle[0]),
@@ -58,6 +62,8 @@ export class Controls {
     this.viewer.onRest = () => this.sayBalls();
     // On a narrow screen the legend is a strip across the picture.
     this.viewer.stripBelow = () => (byId('legend').offsetWidth === byId('stage').clientWidth ? byId('legend').offsetHeight : 0);
+    byId('offer-side').hidden = scene.inside_points === null;
+    byId('colour-side').hidden = scene.inside_points === null;
     this.offerColours();
     this.refresh();
     byId('up').value = scene.up;
@@ -68,7 +74,7 @@ export class Controls {
     for (const name of kLayers) {
       byId(`layer-${name}`).addEventListener('change', (event) => this.viewer.showLayer(name, event.target.checked));
     }
-    for (const id of ['opacity', 'ball-count', 'colour-by', 'least-angle', 'least-radius', 'cut', 'cut-axis',
+    for (const id of ['opacity', 'ball-count', 'colour-by', 'side', 'least-angle', 'least-radius', 'cut', 'cut-axis',
       'cut-flip', 'cut-offset']) {
       byId(id).addEventListener('input', () => this.refresh());
     }
@@ -150,7 +156,8 @@ export class Controls {
     const title = document.createElement('p');
     title.textContent = kAttributes[attribute].label;
     legend.replaceChildren(...this.legendOfMesh(), title,
-      ...(attribute === 'sheet' ? this.swatches() : this.bar(scale * least, scale * greatest)));
+      ...(attribute === 'sheet' ? this.swatches() : attribute === 'side' ? [swatchesOf(kSides.map((side, i) => [sheetColour(i), side]))]
+        : this.bar(scale * least, scale * greatest)));
   }
 
   legendOfMesh() {
@@ -162,63 +169,24 @@ export class Controls {
     const colour = this.scene.boundary?.colours.find(({name}) => name === byId('mesh-colour').value);
     if (!colour) return [];
     const title = Object.assign(document.createElement('p'), {textContent: colour.title});
-    if (colour.bar.length > 0) return [title, ...this.barOf(colour.bar, [colour.least, colour.greatest])];
-    const list = document.createElement('ul');
-    for (const [css, name] of colour.swatches) {
-      const swatch = document.createElement('i'), item = document.createElement('li');
-      swatch.style.background = css;
-      item.append(swatch, name);
-      list.append(item);
-    }
-    return [title, list];
+    if (colour.bar.length > 0) return [title, ...barOf(colour.bar, [colour.least, colour.greatest])];
+    return [title, swatchesOf(colour.swatches)];
   }
 
   bar(least, greatest) {
-    return this.barOf(kViridisCss, [least, (least + greatest) / 2, greatest].map(brief));
-  }
-
-  /** `colours` of CSS from end to end; `numbers` as text. */
-  barOf(colours, numbers) {
-    const bar = document.createElement('div'), ends = document.createElement('div');
-    bar.className = 'bar';
-    bar.style.background = `linear-gradient(to right, ${colours.join(', ')})`;
-    ends.className = 'ends';
-    ends.append(...numbers.map((text) => Object.assign(document.createElement('span'), {textContent: text})));
-    return [bar, ends];
+    return barOf(kViridisCss, [least, (least + greatest) / 2, greatest].map(brief));
   }
 
   /** Sheets by number; if they outnumber the colours, the colours repeat. */
   swatches() {
     const numbers = [...new Set(this.scene.sheets)].sort((a, b) => a - b);
-    const list = document.createElement('ul');
-    for (const sheet of numbers.slice(0, kSheetColours + 1)) {
-      const item = document.createElement('li'), swatch = document.createElement('i');
-      swatch.style.background = sheetColour(sheet);
-      item.append(swatch, sheet < 0 ? 'none (sheets not grown)' : String(sheet));
-      list.append(item);
-    }
-    const more = numbers.length - (kSheetColours + 1);
-    if (more > 0) list.append(Object.assign(document.createElement('li'), {textContent: `and ${grouped(more)} more`}));
-    return [list];
+    const rows = numbers.slice(0, kSheetColours + 1)
+      .map((sheet) => [sheetColour(sheet), sheet < 0 ? 'none (sheets not grown)' : String(sheet)]);
+    const more = numbers.length - rows.length;
+    return [swatchesOf(more > 0 ? [...rows, [null, `and ${grouped(more)} more`]] : rows)];
   }
 
-  refreshCut() {
-    const {lower, upper, origin, scale} = this.scene;
-    const axis = Number(byId('cut-axis').value);
-    const share = byId('cut-offset').value / 1000;
-    const place = lower[axis] + share * (upper[axis] - lower[axis]);
-    const flipped = byId('cut-flip').checked;
-    byId('cut-offset-value').textContent = `${'xyz'[axis]} ${flipped ? '≥' : '≤'} ${this.length(place)}`;
-    for (const id of ['cut-axis', 'cut-flip', 'cut-offset']) byId(id).disabled = !byId('cut').checked;
-    if (!byId('cut').checked) {
-      this.viewer.setPlane([0, 0, 0, 1]);
-    } else {
-      const sign = flipped ? 1 : -1;
-      const plane = [0, 0, 0, -sign * (place - origin[axis]) / scale];
-      plane[axis] = sign;
-      this.viewer.setPlane(plane);
-    }
-  }
+  refreshCut() { refreshCut(this.scene, this.length, this.viewer); }
 
   /** The smallest value of a slider lets everything pass, for any rounding. */
   leastOf(id, range) {
@@ -232,6 +200,7 @@ export class Controls {
     byId('least-angle-value').textContent = `${Math.max(angle, this.ranges.angle[0]).toFixed(3)} rad`;
     byId('least-radius-value').textContent = brief(Math.max(radius, this.ranges.radius[0]) * this.scene.scale);
     this.viewer.setLeast(angle, radius);
+    if (this.scene.inside_points !== null) this.viewer.setSide(byId('side').value);
     byId('count').textContent = `${grouped(this.viewer.countVisible())} of ${grouped(this.scene.points)} points shown`;
   }
 
@@ -253,6 +222,7 @@ export class Controls {
     const angle = scene.angles[i];
     return [
       ['point', String(i)],
+      ...(scene.inside_points === null ? [] : [['side', kSides[Number(i >= scene.inside_points)]]]),
       ['centre', [place(0), place(1), place(2)].join(', ')],
       ['radius', this.length(scene.scale * scene.radii[i])],
       ['object angle', `${angle.toFixed(6)} rad (${(angle * 180 / Math.PI).toFixed(1)}°)`],
@@ -274,15 +244,7 @@ export class Controls {
   }
 
   bindCanvas() {
-    const canvas = this.viewer.canvas;
-    let down = null;
-    canvas.addEventListener('pointerdown', (event) => { down = event.button === 0 ? [event.clientX, event.clientY] : null; });
-    canvas.addEventListener('pointerup', (event) => {
-      const moved = down ? Math.hypot(event.clientX - down[0], event.clientY - down[1]) : Infinity;
-      down = null;
-      if (moved > kClick) return;
-      const {left, top} = canvas.getBoundingClientRect();
-      const place = [event.clientX - left, event.clientY - top];
+    onClick(this.viewer.canvas, (...place) => {
       const isOpaque = this.viewer.isPainted && Number(byId('opacity').value) === 100;
       if (!isOpaque) this.choose(this.viewer.pickAt(...place));
       if (isOpaque || this.pickedPoint < 0) this.chooseVertex(this.viewer.vertexAt(...place));

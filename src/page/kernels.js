@@ -12,11 +12,15 @@ import meshVertex from './shaders/mesh.vert.glsl';
 // wall is visible), and objects shown in front of all others.
 export const kOrder = {back: 0, content: 1, depth: 2, front: 3, crease: 4, picked: 5};
 
+const kAllPoints = 0x7fffffff;
+
 /** Uniforms that all layers share: set once, visible to every kernel. */
 export function commonUniforms() {
   return {
     cutPlane: {value: new Vector4(0, 0, 0, 1)},
     leastAngleRadius: {value: new Vector2(-Infinity, -Infinity)},
+    shownPoints: {value: new Vector2(0, kAllPoints)},
+    insidePoints: {value: kAllPoints},
     colourBy: {value: 0},
     colourRange: {value: new Vector2(0, 1)},
     colourMap: {value: null},

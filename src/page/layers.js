@@ -30,6 +30,7 @@ export function makeUniforms(scene) {
   const voxel = scene.voxel_size / scene.scale;
   return {
     ...commonUniforms(),
+    insidePoints: {value: scene.inside_points ?? scene.points},
     colourMap: {value: colourMap(colourTexels())},
     discRadius: {value: kDiscRadius * voxel},
     pointRadius: {value: kPointRadius * voxel},

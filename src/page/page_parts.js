@@ -57,6 +57,21 @@ export function bindDialogs(names, opened = {}) {
   }
 }
 
+const kClick = 4;  // Pixels that the mouse may move in a click.
+
+/** Calls `click` with the place of every click on the canvas, in CSS pixels from its corner. */
+export function onClick(canvas, click) {
+  let down = null;
+  canvas.addEventListener('pointerdown', (event) => { down = event.button === 0 ? [event.clientX, event.clientY] : null; });
+  canvas.addEventListener('pointerup', (event) => {
+    const moved = down ? Math.hypot(event.clientX - down[0], event.clientY - down[1]) : Infinity;
+    down = null;
+    if (moved > kClick) return;
+    const {left, top} = canvas.getBoundingClientRect();
+    click(event.clientX - left, event.clientY - top);
+  });
+}
+
 /** On a narrow screen the controls are folded away. */
 export function bindFold() {
   byId('fold').addEventListener('click', () => {

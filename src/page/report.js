@@ -105,6 +105,7 @@ export function showReport(target, report) {
     const assumptions = report[key]?.assumptions ?? [];
     if (assumptions.length) target.lastChild.append(element('ul', null, ...assumptions.map((x) => element('li', x))));
   }
+  if (report.sides) target.append(section('Sides', table(report.sides)));
   if (report.sheets?.length) target.append(sheets(report.sheets));
   if (report.fatness) target.append(fatness(report.fatness));
   if (report.boundary?.walls?.length) target.append(walls(report.boundary.walls));

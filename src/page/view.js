@@ -1,5 +1,5 @@
 // A canvas with a camera that turns about the model: what all pages draw with. It draws only when something has changed.
-import {Group, MathUtils, Matrix4, PerspectiveCamera, Scene, Spherical, Vector3, WebGLRenderer} from 'three';
+import {Group, MathUtils, Matrix4, PerspectiveCamera, Plane, Scene, Spherical, Vector3, WebGLRenderer} from 'three';
 import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
 
 import {kThemes} from './colours.js';
@@ -30,6 +30,7 @@ export class View {
     this.size = Math.hypot(...half) || 1;
     this.frame = 0;
     this.moving = false;
+    this.plane = [0, 0, 0, 1];  // Of the cut; nothing is cut away.
     this.stripBelow = () => 0;  // CSS pixels of the picture that other elements cover.
     this.setUpCamera();
   }
@@ -164,6 +165,34 @@ export class View {
   setOpacity(share) {
     this.uniforms.density.value = share < 1 ? share / (1 - share) : 1e4;
     this.draw();
+  }
+
+  /** The side where dot(plane, p) + plane[3] >= 0 is kept, in the model. */
+  setPlane(plane) {
+    this.plane = plane;
+    this.draw();
+  }
+
+  updatePlane() {
+    const [x, y, z, w] = this.plane;
+    if (x === 0 && y === 0 && z === 0) {
+      this.uniforms.cutPlane.value.set(0, 0, 0, 1);
+      return;
+    }
+    const toView = new Matrix4().multiplyMatrices(this.camera.matrixWorldInverse, this.model.matrixWorld);
+    const plane = new Plane(new Vector3(x, y, z), w).applyMatrix4(toView);
+    this.uniforms.cutPlane.value.set(plane.normal.x, plane.normal.y, plane.normal.z, plane.constant);
+  }
+
+  /** The ray through a position of the canvas, in CSS pixels, in the model. */
+  rayAt(x, y) {
+    const {clientWidth, clientHeight} = this.canvas;
+    this.root.updateMatrixWorld();
+    const inverse = new Matrix4().copy(this.model.matrixWorld).invert();
+    const origin = this.camera.position.clone();
+    const direction = new Vector3(2 * x / clientWidth - 1, 1 - 2 * y / clientHeight, 0.5).unproject(this.camera)
+      .sub(origin).transformDirection(inverse);
+    return {origin: origin.applyMatrix4(inverse).toArray(), direction: direction.toArray()};
   }
 
   /** Draws at the next opportunity: quickly, and once more at full quality when nothing has changed for a while. While

@@ -1,11 +1,12 @@
 // The canvas of the page of a run: layers, cut, filter and picking.
-import {Matrix4, Plane, Vector3} from 'three';
+import {Vector3} from 'three';
 
-import {cornerColours, vertexOnRay} from './boundary.js';
+import {cornerColours} from './boundary.js';
 import {kAttributes, kThemes} from './colours.js';
 import {kCornersOfABall, MeshLayer} from './kernels.js';
 import {makeUniforms, PickedLayer, PointLayers} from './layers.js';
 import {pick} from './pick.js';
+import {hitOnRay} from './ray.js';
 import {makeStrokes} from './strokes.js';
 import {creaseGeometry, surfaceGeometry} from './surface.js';
 import {View} from './view.js';
@@ -16,12 +17,21 @@ export const kLayers = ['mesh', 'balls', 'points', 'spokes', 'sheets'];
 const kTurningTime = 40, kRestingTime = 700;
 const kFirstPace = 3e4, kLeastPace = 3e3;  // Pixels of balls per millisecond: first of a slow device, then measured.
 
+/** The mesh, and the points where some of them are outside of it. */
+function inFirstView({vertices, centres, outside}) {
+  if (!outside) return vertices;
+  const all = new Float32Array(vertices.length + centres.length);
+  all.set(vertices);
+  all.set(centres, vertices.length);
+  return all;
+}
+
 export class Viewer extends View {
   /** `context`: of WebGL 2, without antialiasing. */
   constructor(canvas, context, scene) {
     const half = [0, 1, 2].map((k) => (scene.upper[k] - scene.lower[k]) / 2 / scene.scale);
     const surface = surfaceGeometry(scene);
-    super(canvas, context, makeUniforms(scene), {vertices: scene.vertices, half});
+    super(canvas, context, makeUniforms(scene), {vertices: inFirstView(scene), half});
     this.scene = scene;
     this.mesh = new MeshLayer(surface, this.uniforms);
     this.makeStrokes = () => makeStrokes(scene, surface, this.uniforms, Math.hypot(...half));
@@ -30,8 +40,8 @@ export class Viewer extends View {
     this.model.add(...this.mesh.objects, ...this.picked.objects);
     this.shown = {mesh: true, balls: false, points: false, spokes: false, sheets: false};
     this.hasStrokes = false;
-    this.plane = [0, 0, 0, 1];
     this.least = {angle: -Infinity, radius: -Infinity};
+    this.range = [0, scene.points];  // Of the points that are shown: those inside of the mesh come first.
     this.ballCount = 0;
     this.drawnBalls = 0;  // The first of those, as many as the device can draw in time.
     this.pace = kFirstPace;
@@ -91,9 +101,11 @@ export class Viewer extends View {
     this.draw();
   }
 
-  /** The side where dot(plane, p) + plane[3] >= 0 is kept, in the model. */
-  setPlane(plane) {
-    this.plane = plane;
+  /** `side`: "inside", "outside" or "both". */
+  setSide(side) {
+    const {inside_points: inside, points} = this.scene;
+    this.range = [side === 'outside' ? inside : 0, side === 'inside' ? inside : points];
+    this.uniforms.shownPoints.value.set(...this.range);
     this.draw();
   }
 
@@ -103,7 +115,8 @@ export class Viewer extends View {
   }
 
   passesFilter(i) {
-    return this.scene.angles[i] >= this.least.angle && this.scene.radii[i] >= this.least.radius;
+    const {angles, radii} = this.scene;
+    return angles[i] >= this.least.angle && radii[i] >= this.least.radius && i >= this.range[0] && i < this.range[1];
   }
 
   centre(i) { return Array.from(this.scene.centres.subarray(3 * i, 3 * i + 3)); }
@@ -115,10 +128,10 @@ export class Viewer extends View {
   }
 
   countVisible() {
-    const {centres, angles, radii, points} = this.scene;
+    const {centres, angles, radii} = this.scene;
     const [x, y, z, w] = this.plane;
     let count = 0;
-    for (let i = 0; i < points; ++i) {
+    for (let i = this.range[0]; i < this.range[1]; ++i) {
       const kept = x * centres[3 * i] + y * centres[3 * i + 1] + z * centres[3 * i + 2] + w >= 0;
       if (kept && angles[i] >= this.least.angle && radii[i] >= this.least.radius) ++count;
     }
@@ -144,21 +157,10 @@ export class Viewer extends View {
     return [(place.x + 1) / 2 * clientWidth, (1 - place.y) / 2 * clientHeight];
   }
 
-  /** The ray through a position of the canvas, in CSS pixels, in the model. */
-  rayAt(x, y) {
-    const {clientWidth, clientHeight} = this.canvas;
-    this.root.updateMatrixWorld();
-    const inverse = new Matrix4().copy(this.model.matrixWorld).invert();
-    const origin = this.camera.position.clone();
-    const direction = new Vector3(2 * x / clientWidth - 1, 1 - 2 * y / clientHeight, 0.5).unproject(this.camera)
-      .sub(origin).transformDirection(inverse);
-    return {origin: origin.applyMatrix4(inverse).toArray(), direction: direction.toArray()};
-  }
-
   /** The vertex at a position of the canvas, if the mesh is painted; -1: none. */
   vertexAt(x, y) {
     if (!this.isPainted || !this.shown.mesh) return -1;
-    return vertexOnRay(this.scene, this.rayAt(x, y), this.plane);
+    return hitOnRay(this.scene, this.rayAt(x, y), this.plane)?.vertex ?? -1;
   }
 
   /** The point or ball at a position of the canvas, in CSS pixels; -1: none. */
@@ -219,16 +221,5 @@ export class Viewer extends View {
   drawn(atRest) {
     this.learnPace(atRest);
     if (atRest) this.onRest?.();
-  }
-
-  updatePlane() {
-    const [x, y, z, w] = this.plane;
-    if (x === 0 && y === 0 && z === 0) {
-      this.uniforms.cutPlane.value.set(0, 0, 0, 1);
-      return;
-    }
-    const toView = new Matrix4().multiplyMatrices(this.camera.matrixWorldInverse, this.model.matrixWorld);
-    const plane = new Plane(new Vector3(x, y, z), w).applyMatrix4(toView);
-    this.uniforms.cutPlane.value.set(plane.normal.x, plane.normal.y, plane.normal.z, plane.constant);
   }
 }

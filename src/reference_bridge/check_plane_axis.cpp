@@ -1,15 +1,12 @@
 #include "reference_bridge/check_plane_axis.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
-#include <string>
 #include <utility>
 
 #include "cpu_reference/plane.h"
+#include "reference_bridge/plane_conditions.h"
 
 namespace medial_vk {
 namespace {
@@ -21,26 +18,6 @@ constexpr std::uint64_t kSeed = 20110430;
 constexpr double kDeepAngleOfPlane = 0.15;  // of points that pass by their radius
 constexpr double kLeastAngleOfPlane = 1e-7;
 constexpr double kInside = 1.05;  // samples pass the thresholds by 5 percent
-
-/// A condition of many points.
-class PlaneCondition {
- public:
-  explicit PlaneCondition(const char* words, const char* unit = "length") {
-    line_.condition = words, line_.unit = unit;
-  }
-
-  void test(double excess, double allowed, const Vector2d& at) {
-    ++line_.tested;
-    line_.worst = std::max(line_.worst, excess);
-    if (excess <= allowed) return;
-    if (line_.failed++ > 0) return;
-    line_.first_failure = fmt::format("{}: at ({:.9g}, {:.9g}), by {:.3g}", line_.condition, at[0], at[1], excess);
-  }
-  const CheckLine& line() const { return line_; }
-
- private:
-  CheckLine line_;
-};
 
 class PlaneAxisCheck {
  public:
@@ -139,33 +116,9 @@ class PlaneAxisCheck {
     const Vector2d off = (ball->centre - middle_).cwiseAbs();
     if (options_.side != PlaneSide::kInside && off.maxCoeff() > half_ / kInside) return;
     const double sine = std::sin(ball->object_angle);
-    const double nearest = distance_of_axis(ball->centre);
+    const double nearest = distance_of_arcs(axis_, origin_, ball->centre);
     // The centre is p + n h / (1 - c), where 1 - c is twice the square of the sine.
     samples_.test(nearest, allowed() + rounding_ / (sine * sine), in_input(ball->centre));
-  }
-
-  double distance_of_axis(const Vector2d& p) const {
-    double least = std::numeric_limits<double>::infinity();
-    for (const AxisNode& node : axis_.nodes) least = std::min(least, (p - placed(node.point)).norm());
-    for (const AxisArc& arc : axis_.arcs) least = std::min(least, distance_of_arc(arc, p));
-    return least;
-  }
-
-  /// Of a parabola an upper bound: some steps of Newton's method towards its nearest point.
-  double distance_of_arc(const AxisArc& arc, const Vector2d& p) const {
-    const PlaneCurve& curve = arc.curve;
-    const Vector2d along(curve.along[0], curve.along[1]), up(curve.up[0], curve.up[1]);
-    const Vector2d off = p - placed(curve.origin);
-    double t = std::clamp(off.dot(along), arc.t[0], arc.t[1]);
-    double least = (p - placed(curve.point_at(t))).norm();
-    if (curve.kind != PlaneCurve::Kind::kOfPointAndSegment) return least;
-    for (int i = 0; i < 4; ++i) {
-      const double slope = t / curve.focus, rise = off.dot(up) - curve.radius_at(t);
-      const double step = (off.dot(along) - t + rise * slope) / (1 + slope * slope);
-      t = std::clamp(t + step, arc.t[0], arc.t[1]);
-      least = std::min(least, (p - placed(curve.point_at(t))).norm());
-    }
-    return least;
   }
 
   PlaneAxisOptions options_;

@@ -8,12 +8,15 @@ import {Workshop} from './fixtures.mjs';
 import {motionCoverTests} from './motion_cover_tests.mjs';
 import {motionTests} from './motion_tests.mjs';
 import {planeTests} from './plane_tests.mjs';
+import {sideTests} from './side_tests.mjs';
+import {sitesTests} from './sites_tests.mjs';
 import {tests as pageTests} from './tests.mjs';
 import {viewTests} from './view_tests.mjs';
 
-const tests = {...pageTests, ...viewTests, ...boundaryTests};
+const tests = {...pageTests, ...viewTests, ...boundaryTests, ...sideTests};
 for (const [name, test] of Object.entries({...motionTests, ...motionCoverTests})) tests[`motion_${name}`] = test;
 for (const [name, test] of Object.entries(planeTests)) tests[`plane_${name}`] = test;
+for (const [name, test] of Object.entries(sitesTests)) tests[`sites_${name}`] = test;
 
 function skip(why) {
   console.log(`SKIPPED: ${why}`);

@@ -32,6 +32,7 @@
 #include "medial_vk/penetration.h"
 #include "medial_vk/plane_axis.h"
 #include "medial_vk/plane_centre_line.h"
+#include "medial_vk/plane_roadmap.h"
 #include "medial_vk/plane_shape.h"
 #include "medial_vk/plane_thesis.h"
 #include "medial_vk/pose.h"

@@ -78,4 +78,16 @@ Analysis joined(Analysis inside, Analysis outside) {
   return both;
 }
 
+SideRecord record_of(MeshSide side, const Analysis& analysis) {
+  SideRecord record = {.side = side,
+                       .points = analysis.spheres.size(),
+                       .undecided = analysis.undecided.size(),
+                       .sheets = analysis.sheets->sheets.size(),
+                       .radii = range_of_radii(analysis.spheres),
+                       .object_angles = range_of_object_angles(analysis.spheres)};
+  for (const Sheet& sheet : analysis.sheets->sheets) record.area += sheet.area;
+  if (analysis.significance) record.union_volume = analysis.significance->volume;
+  return record;
+}
+
 }  // namespace medial_vk::cli

@@ -174,6 +174,7 @@ Status MeshRun::analyse_mesh() {
       record_.search.inside_points = made.value().spheres.size();
       record_.search.inside_sheets = made.value().sheets->sheets.size();
     }
+    if (record_.search.outside) record_.search.sides.push_back(record_of(mesh.side(), made.value()));
     if (made.value().significance) {
       const Significance& measured = *made.value().significance;
       (is_first ? record_.ball_union : record_.outside_union) =

@@ -46,6 +46,8 @@ Output:
       --ascii           PLY as text
       --picture FILE    a .png with the sites, and the surface in a colour for
                         each pair
+      --html FILE       a page for a browser: sites, faces by pair, roadmap; a
+                        click shows pair, distance and directions
       --view FROM       front, back, left, right, top, bottom, iso or x,y,z
       --up AXIS         the axis that points up: x, y, z, -x, -y or -z
       --size WxH        of the picture, in pixels
@@ -53,11 +55,11 @@ Output:
                         link with the radius of a ball that passes, proved
       --from X,Y,Z, --to X,Y,Z
                         in the roadmap: the path between two places with the
-                        greatest width on this graph
+                        greatest width on this graph; in the plane X,Y
       --report FILE     numbers of sites, surface and run as JSON; "-": standard
                         output
       --check           test every point, and samples of the surface, with the
-                        CPU reference
+                        CPU reference; in the plane the curves and the widths
 
 Other:
       --threads N       CPU threads, 0 for all (default 0)

@@ -75,6 +75,28 @@ void append_shape(const PreparedShape& shape, std::uint32_t site, PlaneSites& si
   sum.tolerance = std::max(sum.tolerance, report.tolerance);
 }
 
+/// By the boundary that a ray along x crosses: shapes are apart, but may lie in holes of others. Places at the
+/// boundary, up to rounding, are found by their distance.
+bool is_in_a_shape(const PlanePoint& p, const PreparedShape& shapes) {
+  bool is_inside = false;
+  for (const auto& [i, k] : shapes.segments) {
+    const PlanePoint &a = shapes.points[i], &b = shapes.points[k];
+    if ((a[1] > p[1]) == (b[1] > p[1])) continue;
+    const double side = (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+    if ((side > 0) == (b[1] > a[1])) is_inside = !is_inside;
+  }
+  return is_inside;
+}
+
+std::string path_words(const PlaneRecord& record) {
+  if (!record.path) {
+    return fmt::format("none found from {:.6g} to {:.6g} by the links of the roadmap",
+                       fmt::join(record.path_ends[0], ","), fmt::join(record.path_ends[1], ","));
+  }
+  return fmt::format("width {:.6g}, length {:.6g}, {}", record.path->width, record.path->length,
+                     counted(record.path->line.size(), "point", "points"));
+}
+
 }  // namespace
 
 Result<PlaneSites> load_plane_sites(const VoronoiCommandOptions& options, PlaneRecord& record,
@@ -132,6 +154,28 @@ Status find_plane_curves(const PlaneSites& sites, const VoronoiCommandOptions& o
   return {};
 }
 
+Status check_plane_ends(const VoronoiCommandOptions& options, const PreparedShape& shapes) {
+  if (!options.from) return {};
+  for (const auto& [name, end] : {std::pair("`from`", &*options.from), std::pair("`to`", &*options.to)}) {
+    if (!is_in_a_shape({(*end)[0], (*end)[1]}, shapes)) continue;
+    return Error{ErrorCode::kUsage, std::string(name) + " must be outside of all sites"};
+  }
+  return {};
+}
+
+Status make_plane_roadmap(const PlaneSites& sites, const VoronoiCommandOptions& options, PlaneRecord& record) {
+  Result<PlaneRoadmap> roadmap = PlaneRoadmap::build(sites, record.axis, {.threads = options.threads});
+  if (!roadmap) return roadmap.error();
+  record.roadmap = std::move(roadmap).value();
+  if (!options.from) return {};
+  record.path_was_sought = true;
+  record.path_ends = {PlanePoint{(*options.from)[0], (*options.from)[1]}, {(*options.to)[0], (*options.to)[1]}};
+  Result<std::optional<PlanePath>> path = record.roadmap->widest_path(record.path_ends[0], record.path_ends[1]);
+  if (!path) return path.error();
+  record.path = std::move(path).value();
+  return {};
+}
+
 std::string plane_sites_summary(const PlaneRecord& record, const std::vector<StageTime>& times, bool verbose) {
   const PlaneCounts counts = counts_of(record);
   std::string text = fmt::format("{}, {}\n", counted(record.sites.size(), "site", "sites"),
@@ -143,6 +187,11 @@ std::string plane_sites_summary(const PlaneRecord& record, const std::vector<Sta
   text += labelled("length", fmt::format("{:.6g}", counts.length));
   text += labelled("clearance", fmt::format("{:.6g} to {:.6g}", counts.least_radius, counts.greatest_radius));
   text += labelled("epsilon", fmt::format("{:.3g}", record.axis.epsilon));
+  if (record.roadmap) {
+    text += labelled("roadmap", fmt::format("{}, {}", counted(record.roadmap->links().size(), "link", "links"),
+                                            counted(record.roadmap->components(), "component", "components")));
+  }
+  if (record.path_was_sought) text += labelled("path", path_words(record));
   return text + labelled("time", times_text(times, verbose));
 }
 
@@ -162,6 +211,13 @@ std::string plane_sites_report(const PlaneRecord& record, const std::vector<Stag
                                      {"greatest_clearance", counts.greatest_radius},
                                      {"epsilon", record.axis.epsilon},
                                      {"cells", record.axis.cells}}}};
+  if (record.roadmap) {
+    report["roadmap"] = {{"links", record.roadmap->links().size()}, {"components", record.roadmap->components()}};
+  }
+  if (record.path_was_sought) {
+    report["path"] = nullptr;
+    if (record.path) report["path"] = {{"width", record.path->width}, {"length", record.path->length}};
+  }
   for (const StageTime& time : times) report["seconds"][time.stage] = time.seconds;
   return report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

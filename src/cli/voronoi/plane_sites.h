@@ -15,6 +15,12 @@ namespace medial_vk::cli {
 Result<PlaneSites> load_plane_sites(const VoronoiCommandOptions& options, PlaneRecord& record,
                                     std::vector<StageTime>& times);
 
+/// Error: kUsage, if --from or --to is inside of a shape.
+Status check_plane_ends(const VoronoiCommandOptions& options, const PreparedShape& shapes);
+
+/// The graph of the curves, and the path between --from and --to. Errors: those of PlaneRoadmap.
+Status make_plane_roadmap(const PlaneSites& sites, const VoronoiCommandOptions& options, PlaneRecord& record);
+
 /// Finds the curves between the sites, and makes polylines of them. Errors: those of find_plane_voronoi().
 Status find_plane_curves(const PlaneSites& sites, const VoronoiCommandOptions& options,
                          const ProgressCallback& progress, const std::stop_token& stop, PlaneRecord& record);

@@ -17,10 +17,14 @@
 #include "cli/voronoi/plane_sites.h"
 #include "cli/voronoi/voronoi_summary.h"
 #include "output/atomic_files/atomic_file.h"
+#include "output/page/page.h"
 #include "output/plane_files/plane_files.h"
+#include "output/plane_page/plane_page.h"
 #include "output/plane_picture/plane_picture.h"
 #include "output/site_files/site_files.h"
+#include "output/site_page/site_page.h"
 #include "output/site_picture/site_picture.h"
+#include "reference_bridge/check_plane_voronoi.h"
 #include "reference_bridge/check_site_voronoi.h"
 
 namespace medial_vk::cli {
@@ -32,6 +36,9 @@ class VoronoiRun {
   explicit VoronoiRun(const VoronoiCommandOptions& options) : options_(options), progress_(!options.quiet) {}
 
   Status run() {
+    if (!options_.html.empty()) {
+      if (Status status = check_page_available(); !status) return status;
+    }
     for (const NamedOutput& output : outputs_of(options_)) {
       if (output.file->empty()) continue;
       if (Status status = check_writable(*output.file); !status) return status;
@@ -167,6 +174,9 @@ class VoronoiRun {
       if (!png) return png.error();
       files_.push_back({options_.picture, std::move(png).value()});
     }
+    if (!options_.html.empty()) {
+      files_.push_back({options_.html, encode_site_page(record_, sites_, options_.picture_options.view.up)});
+    }
     progress_.clear();
     times_.push_back({"files", stopwatch.lap()});
     if (!options_.report.empty()) files_.push_back({options_.report, voronoi_report(record_, times_)});
@@ -198,19 +208,41 @@ class VoronoiRun {
     };
     const Result<PlaneSites> sites = load();
     if (!sites) return sites.error();
+    if (Status status = check_plane_ends(options_, plane_.shape); !status) return status;
     const Status found = stoppable("search", [&](const ProgressCallback& progress, const std::stop_token& stop) {
       return find_plane_curves(sites.value(), options_, progress, stop, plane_);
     });
     if (!found) return in_words(found.error());
+    if (Status status = finish_curves(sites.value()); !status) return status;
     Stopwatch stopwatch;
     files_.push_back({options_.output, encode_in_plane()});
+    if (plane_.roadmap) files_.push_back({options_.roadmap, encode_plane_roadmap_json(plane_)});
     if (!options_.picture.empty()) {
       Result<std::string> png = encode_png(draw_plane(plane_));
       if (!png) return png.error();
       files_.push_back({options_.picture, std::move(png).value()});
     }
+    if (!options_.html.empty()) files_.push_back({options_.html, encode_plane_page(plane_)});
     times_.push_back({"files", stopwatch.lap()});
     if (!options_.report.empty()) files_.push_back({options_.report, plane_sites_report(plane_, times_)});
+    return {};
+  }
+
+  /// The roadmap and the check. They cannot be stopped half-way, but nothing is lost if the process ends.
+  Status finish_curves(const PlaneSites& sites) {
+    const EndAtOnce guard;
+    if (interrupted()) return stopped();
+    Stopwatch stopwatch;
+    if (!options_.roadmap.empty()) {
+      if (Status status = make_plane_roadmap(sites, options_, plane_); !status) return status;
+      times_.push_back({"roadmap", stopwatch.lap()});
+    }
+    if (!options_.check) return {};
+    check_ = check_plane_voronoi(sites, plane_.axis, plane_.roadmap ? &*plane_.roadmap : nullptr,
+                                 plane_.path ? &*plane_.path : nullptr,
+                                 [&](double done) { progress_.update("check", done); });
+    progress_.clear();
+    times_.push_back({"check", stopwatch.lap()});
     return {};
   }
 

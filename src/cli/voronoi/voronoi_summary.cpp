@@ -12,7 +12,8 @@
 namespace medial_vk::cli {
 namespace {
 
-constexpr std::size_t kMostPairs = 20;  // in the summary
+constexpr std::size_t kMostPairs = 20;           // in the summary
+constexpr std::size_t kMostListedVoxels = 1000;  // of a kind, in the report: docs/formats.md states it
 
 std::string sites_text(const SiteRecord& record) {
   std::vector<std::string> kinds;
@@ -58,6 +59,22 @@ std::string path_text(const SiteRecord& record) {
   }
   return fmt::format("width {:.6g}, length {:.6g}, {}", record.path->width, record.path->length,
                      counted(record.path->line.size(), "point", "points"));
+}
+
+/// The first voxels of each kind, with the places of their middles; files of the surface have all.
+nlohmann::ordered_json voxels_json(const SiteVoronoi& voronoi) {
+  nlohmann::ordered_json json = {{"listed_at_most", kMostListedVoxels}};
+  for (const VoxelsWithoutPoint& kind : voxels_without_point(voronoi)) {
+    nlohmann::ordered_json listed = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < std::min(kind.voxels->size(), kMostListedVoxels); ++i) {
+      const std::array<std::uint32_t, 3>& voxel = (*kind.voxels)[i];
+      Point middle = voronoi.grid.corner(voxel);
+      for (double& x : middle) x += voronoi.grid.side / 2;
+      listed.push_back({{"voxel", voxel}, {"middle", middle}});
+    }
+    json[kind.name] = {{"count", kind.voxels->size()}, {"first", listed}};
+  }
+  return json;
 }
 
 }  // namespace
@@ -116,6 +133,7 @@ std::string voronoi_report(const SiteRecord& record, const std::vector<StageTime
                        {"overlapping_voxels", voronoi.overlapping.size()},
                        {"overlaps", voronoi.overlaps},
                        {"cells", voronoi.cells}};
+  report["voxels"] = voxels_json(voronoi);
   report["pairs"] = nlohmann::ordered_json::array();
   for (const SitePair& pair : pairs_of(voronoi)) {
     report["pairs"].push_back({{"sites", pair.sites},

@@ -155,6 +155,23 @@ Json region_json(const RunRecord& record) {
           {"outside_points", record.points - search.inside_points}};
 }
 
+/// The sums of each side; both are in the same grid.
+Json sides_json(const SearchRecord& search) {
+  if (search.sides.empty()) return nullptr;
+  Json json = Json::array();
+  for (const SideRecord& side : search.sides) {
+    json.push_back({{"side", side.side == MeshSide::kInside ? "inside" : "outside"},
+                    {"points", side.points},
+                    {"sheets", side.sheets},
+                    {"area", side.area},
+                    {"union_volume", side.union_volume ? Json(*side.union_volume) : Json(nullptr)},
+                    {"radius", range_json(side.radii)},
+                    {"object_angle", range_json(side.object_angles)},
+                    {"undecided", side.undecided}});
+  }
+  return json;
+}
+
 /// Ranks by sheet of one side: 1 for the most significant. Ties go to the smaller number.
 std::vector<std::size_t> ranks_of(std::span<const Sheet> sheets) {
   std::vector<std::size_t> order(sheets.size()), ranks(sheets.size());
@@ -309,6 +326,7 @@ std::string report_json(const RunRecord& record) {
       {"mesh", mesh_json(record.mesh, record.longest_side)},
       {"grid", {{"origin", record.grid.origin}, {"voxel_size", record.grid.voxel_size}, {"size", record.grid.size}}},
       {"region", region_json(record)},
+      {"sides", sides_json(record.search)},
       {"voxels",
        {{"found", record.counters.found},
         {"undecided", record.counters.undecided},

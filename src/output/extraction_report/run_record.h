@@ -13,6 +13,7 @@
 #include "medial_vk/certify.h"
 #include "medial_vk/context.h"
 #include "medial_vk/fatness.h"
+#include "medial_vk/indexed_mesh.h"
 #include "medial_vk/medial_mesh.h"
 #include "medial_vk/sheets.h"
 #include "medial_vk/significance.h"
@@ -46,14 +47,27 @@ struct FatnessRecord {
   double proved_radius = 0;
 };
 
+/// What was found on one side of the mesh.
+struct SideRecord {
+  MeshSide side = MeshSide::kInside;
+  std::uint64_t points = 0;     ///< Written, as the sheets and their area (in squared units of the mesh).
+  std::uint64_t undecided = 0;  ///< Voxels.
+  std::size_t sheets = 0;
+  double area = 0;
+  std::optional<Range> radii = {};
+  std::optional<Range> object_angles = {};
+  std::optional<double> union_volume = {};  ///< Of its balls, before sheets were removed; none if not computed.
+};
+
 /// Of --side: where medial points were sought.
 struct SearchRecord {
   bool inside = true, outside = false;
   double margin = 0;  ///< In the units of the mesh.
   Point lower = {0, 0, 0}, upper = {0, 0, 0};
-  double longest_side = 0;          ///< Of that box: the unit of the fractions among the options.
-  std::uint64_t inside_points = 0;  ///< Of those that are written: they come first.
-  std::size_t inside_sheets = 0;    ///< As `inside_points`.
+  double longest_side = 0;             ///< Of that box: the unit of the fractions among the options.
+  std::uint64_t inside_points = 0;     ///< Of those that are written: they come first.
+  std::size_t inside_sheets = 0;       ///< As `inside_points`.
+  std::vector<SideRecord> sides = {};  ///< Those that were searched, if the outside is among them.
 };
 
 struct RunRecord {

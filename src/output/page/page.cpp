@@ -77,6 +77,7 @@ void write_spheres(std::string& page, std::span<const MedialSphere> spheres, con
 
 std::string scene_json(const Mesh& mesh, std::span<const MedialSphere> spheres, const RunRecord& record,
                        const Placement& placement, UpAxis up, const BoundaryFields& boundary) {
+  const bool of_both = record.search.inside && record.search.outside;
   const Json json = {{"origin", placement.origin},
                      {"scale", placement.scale},
                      {"lower", record.search.outside ? record.search.lower : record.mesh.lower},
@@ -85,6 +86,8 @@ std::string scene_json(const Mesh& mesh, std::span<const MedialSphere> spheres, 
                      {"vertices", mesh.vertices.size()},
                      {"triangles", mesh.triangles.size()},
                      {"points", spheres.size()},
+                     {"outside", record.search.outside},
+                     {"inside_points", of_both ? Json(record.search.inside_points) : Json(nullptr)},
                      {"up", axis_name(up)},
                      {"boundary", page::boundary_json(boundary, record.longest_side)}};
   return json.dump();

@@ -15,5 +15,7 @@ std::string encode_plane_geojson(const PlaneRecord& record);
 std::string encode_plane_csv(const PlaneRecord& record);
 /// The shape, the axis in colours, and its nodes, in the coordinates of the input.
 std::string encode_plane_svg(const PlaneRecord& record);
+/// The graph of the roadmap between sites, with the path. Precondition: there is a roadmap.
+std::string encode_plane_roadmap_json(const PlaneRecord& record);
 
 }  // namespace medial_vk

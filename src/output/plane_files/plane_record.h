@@ -10,6 +10,7 @@
 
 #include "medial_vk/plane_axis.h"
 #include "medial_vk/plane_centre_line.h"
+#include "medial_vk/plane_roadmap.h"
 #include "medial_vk/plane_shape.h"
 
 namespace medial_vk {
@@ -44,6 +45,10 @@ struct PlaneRecord {
   /// Of curves between sites: their names, and the site of each point and segment of the shape. Empty: of an axis.
   std::vector<std::string> sites;
   std::vector<std::uint32_t> site_of_point, site_of_segment;
+  std::optional<PlaneRoadmap> roadmap;
+  bool path_was_sought = false;
+  std::array<PlanePoint, 2> path_ends = {};
+  std::optional<PlanePath> path;
   std::optional<std::array<double, 4>> view_box;  ///< Of an SVG: x, y, width, height.
 };
 

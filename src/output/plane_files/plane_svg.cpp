@@ -34,6 +34,7 @@ class PlaneSvg {
     add_shape();
     for (std::size_t b = 0; b < record_.lines.size(); ++b) add_branch(b);
     add_junctions();
+    add_path();
     out_ += "</svg>\n";
     return std::move(out_);
   }
@@ -104,6 +105,14 @@ class PlaneSvg {
       if (node.degree != 2 && node.degree != 1) add("M{} {}h0", node.point[0], up_ * node.point[1]);
     }
     out_ += "\"/>\n";
+  }
+
+  void add_path() {
+    if (!record_.path) return;
+    out_ += "<polyline id=\"path\" class=\"axis\" stroke=\"#d91a1a\" points=\"";
+    for (const PlanePoint& p : record_.path->line) add("{},{} ", p[0], up_ * p[1]);
+    out_.back() = '"';
+    out_ += "/>\n";
   }
 
   const PlaneRecord& record_;

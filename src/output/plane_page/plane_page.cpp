@@ -33,6 +33,10 @@ PlaneNumbers numbers_of(const PlaneRecord& record, const PlaneCounts& counts) {
   add("object angle at least", record.options.object_angle);
   add("side", name_of(record.options.side));
   add("epsilon", record.axis.epsilon);
+  if (record.path) {
+    add("width of the path", record.path->width);
+    add("length of the path", record.path->length);
+  }
   return numbers;
 }
 
@@ -80,7 +84,13 @@ void write_axis(std::string& out, const PlaneRecord& record) {
     if (node.degree == 2) continue;
     for (const double x : {node.point[0], node.point[1], static_cast<double>(node.degree)}) nodes.add(x);
   }
-  for (const page::Block* block : {&samples, &counts, &nodes}) block->write(out);
+  page::Block path("path", 0);
+  if (record.path) {
+    for (const PlanePoint& p : record.path->line) {
+      for (const double x : p) path.add(x);
+    }
+  }
+  for (const page::Block* block : {&samples, &counts, &nodes, &path}) block->write(out);
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ using picture::Spot;
 constexpr std::uint32_t kWidth = 1600, kLeastHeight = 600, kGreatestHeight = 1500, kBand = 170;
 constexpr double kMargin = 0.04;
 const Vector3f kGlass(0.87f, 0.92f, 0.955f), kRim(0.42f, 0.53f, 0.63f), kInk(0.16f, 0.19f, 0.24f);
+const Vector3f kPathColour(0.85f, 0.1f, 0.1f);
 constexpr std::size_t kMostDiscs = 60, kMostMarks = 400;
 
 /// A colour a little darker than viridis where that is almost as light as the glass.
@@ -43,6 +44,7 @@ class PlanePainter {
     draw_branches();
     draw_single_points();
     draw_marks();
+    draw_path();
     Picture out = canvas_.picture();
     write_numbers(out);
     return out;
@@ -176,6 +178,18 @@ class PlanePainter {
       } else {
         canvas_.disc(at, 2.0 * width, kInk, 1);
         canvas_.disc(at, 1.25 * width, Vector3f::Ones(), 1);
+      }
+    }
+  }
+
+  /// On top of everything, since it is what the picture is for.
+  void draw_path() {
+    if (!record_.path) return;
+    const std::vector<PlanePoint>& line = record_.path->line;
+    for (const bool is_halo : {true, false}) {
+      const auto colour = [&](double) -> Vector3f { return is_halo ? Vector3f::Ones() : kPathColour; };
+      for (std::size_t i = 1; i < line.size(); ++i) {
+        canvas_.stroke(place(line[i - 1]), place(line[i]), is_halo ? 7 : 4, colour);
       }
     }
   }

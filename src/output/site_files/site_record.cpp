@@ -7,6 +7,10 @@
 
 namespace medial_vk {
 
+std::array<VoxelsWithoutPoint, 3> voxels_without_point(const SiteVoronoi& voronoi) {
+  return {{{"undecided", &voronoi.undecided}, {"tied", &voronoi.tied}, {"overlapping", &voronoi.overlapping}}};
+}
+
 std::vector<SitePair> pairs_of(const SiteVoronoi& voronoi) {
   std::map<std::array<std::uint32_t, 2>, SitePair> pairs;
   for (const SitePiece& piece : voronoi.pieces) {

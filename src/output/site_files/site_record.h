@@ -30,6 +30,15 @@ struct SiteRecord {
   std::optional<SitePath> path;
 };
 
+/// Voxels of one kind without a point, but without a proof that they need none.
+struct VoxelsWithoutPoint {
+  const char* name;  ///< Of SiteVoronoi: "undecided", "tied" or "overlapping".
+  const std::vector<std::array<std::uint32_t, 3>>* voxels;
+};
+
+/// Of all kinds; they point into `voronoi`.
+std::array<VoxelsWithoutPoint, 3> voxels_without_point(const SiteVoronoi& voronoi);
+
 /// Numbers of one pair of sites: its pieces together.
 struct SitePair {
   std::array<std::uint32_t, 2> sites = {};

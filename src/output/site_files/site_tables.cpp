@@ -1,6 +1,8 @@
 // The surface and the roadmap as JSON and as arrays.
 #include <fmt/format.h>
 
+#include <array>
+#include <cstdint>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
@@ -91,10 +93,12 @@ std::string encode_sites_json(const SiteRecord& record) {
         R"({{"sites": [{}, {}], "faces": {}, "area": {}, "least_clearance": {}, "greatest_clearance": {}}})",
         p.sites[0], p.sites[1], p.faces, p.area, p.least_clearance, p.greatest_clearance);
   });
-  json.rows("undecided", voronoi.undecided.size(), [&](std::size_t i) {
-    const auto& voxel = voronoi.undecided[i];
-    return fmt::format("[{}, {}, {}]", voxel[0], voxel[1], voxel[2]);
-  });
+  for (const VoxelsWithoutPoint& kind : voxels_without_point(voronoi)) {
+    json.rows(kind.name, kind.voxels->size(), [&](std::size_t i) {
+      const std::array<std::uint32_t, 3>& voxel = (*kind.voxels)[i];
+      return fmt::format("[{}, {}, {}]", voxel[0], voxel[1], voxel[2]);
+    });
+  }
   return json.finish();
 }
 
@@ -174,6 +178,12 @@ Result<std::string> encode_sites_npz(const SiteRecord& record) {
   npz.numbers<double>("piece_area", {pieces.size()}, areas);
   npz.numbers<double>("piece_least_clearance", {pieces.size()}, least_clearances);
   npz.numbers<double>("piece_greatest_clearance", {pieces.size()}, greatest_clearances);
+  for (const VoxelsWithoutPoint& kind : voxels_without_point(record.voronoi)) {
+    std::vector<std::uint32_t> places;
+    places.reserve(3 * kind.voxels->size());
+    for (const auto& voxel : *kind.voxels) places.insert(places.end(), voxel.begin(), voxel.end());
+    npz.numbers<std::uint32_t>(kind.name, {kind.voxels->size(), 3}, places);
+  }
   npz.numbers<double>("grid_origin", {3}, record.voronoi.grid.origin);
   npz.number<double>("voxel_side", record.voronoi.grid.side);
   npz.numbers<std::uint32_t>("grid_size", {3}, record.voronoi.grid.size);

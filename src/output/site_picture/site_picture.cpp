@@ -7,22 +7,23 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <string>
 
-#include "medial_vk/medial_spheres.h"
+#include "medial_vk/mesh.h"
 #include "output/colours/colour_map.h"
 #include "output/picture/panels/panel.h"
 #include "output/picture/panels/scene.h"
+#include "output/site_shapes/site_shapes.h"
 
 namespace medial_vk {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kThickness = 0.006;  // of segments and points, as a share of the diagonal of the box
-constexpr double kSpeck = 0.02;       // of that
-constexpr double kPathShare = 0.004;  // likewise, the radius of the path
+constexpr double kPathShare = 0.004;   // of the diagonal of the box: the radius of the path
+constexpr double kSplatRadius = 0.75;  // In voxels: those of neighbouring voxels overlap.
 constexpr std::size_t kMostPairsNamed = 6;
 constexpr std::size_t kMostLetters = 64;  // of their names, which are in one row
 constexpr std::size_t kMostLettersOfAName = 16;
@@ -30,94 +31,66 @@ constexpr std::size_t kMostLettersOfAName = 16;
 Vector3d vector_of(const Point& p) { return Vector3d(p.data()); }
 Point point_of(const Vector3d& v) { return {v[0], v[1], v[2]}; }
 
-/// Triangles that stand for sites of any kind.
-class SitesMesh {
+/// The faces, and a splat in the plane between its first two contacts for each point without one; triangles with the
+/// number of their pair, or -1 of a pair without faces.
+class SurfaceMesh {
  public:
-  SitesMesh(const SiteGrid& grid, std::span<const VoronoiSite> sites) {
-    const Point upper = grid.corner(grid.size);
-    radius_ = kThickness * (vector_of(upper) - vector_of(grid.origin)).norm();
-    // Specks at the corners: the picture shows the whole box.
-    for (unsigned i = 0; i < 8; ++i) {
-      Point corner = grid.origin;
-      for (std::size_t k = 0; k < 3; ++k) corner[k] = ((i >> k) & 1u) != 0 ? upper[k] : corner[k];
-      const Point beside = {corner[0] + kSpeck * radius_, corner[1], corner[2]};
-      triangle(corner, beside, {corner[0], corner[1] + kSpeck * radius_, corner[2]});
+  explicit SurfaceMesh(const SiteVoronoi& voronoi) {
+    for (const SitePair& pair : pairs_of(voronoi)) {
+      numbers_.try_emplace(pair.sites, static_cast<std::int32_t>(numbers_.size()));
     }
-    for (const VoronoiSite& site : sites) add(site);
+    for (const SitePoint& p : voronoi.points) mesh_.vertices.push_back(p.point);
+    for (const SiteFace& face : voronoi.faces) add_ring(corners_of(face), face.sites);
+    const std::vector<std::int32_t> pieces = piece_of_points(voronoi);
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      if (pieces[i] < 0) add_splat(voronoi.points[i], kSplatRadius * voronoi.grid.side);
+    }
   }
 
   const Mesh& mesh() const { return mesh_; }
-  double diagonal() const { return radius_ / kThickness; }
+  const std::vector<std::int32_t>& numbers() const { return number_of_triangle_; }
 
  private:
-  void add(const VoronoiSite& site) {
-    if (site.mesh) {
-      const Mesh& other = site.mesh->prepared().mesh;
-      for (const auto& [a, b, c] : other.triangles) triangle(other.vertices[a], other.vertices[b], other.vertices[c]);
-    }
-    for (const auto& [a, b, c] : site.triangles) triangle(a, b, c);
-    for (const auto& [a, b] : site.segments) spindle(vector_of(a), vector_of(b));
-    for (const Point& p : site.points) {
-      const Vector3d up(0, 0, 2 * radius_);
-      spindle(vector_of(p) - up, vector_of(p) + up);
+  void add_ring(const std::vector<std::uint32_t>& ring, const std::array<std::uint32_t, 2>& sites) {
+    const auto number = numbers_.find(sites);
+    for (std::size_t i = 2; i < ring.size(); ++i) {
+      mesh_.triangles.push_back({ring[0], ring[i - 1], ring[i]});
+      number_of_triangle_.push_back(number == numbers_.end() ? -1 : number->second);
     }
   }
 
-  void triangle(const Point& a, const Point& b, const Point& c) {
-    const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
-    mesh_.vertices.insert(mesh_.vertices.end(), {a, b, c});
-    mesh_.triangles.push_back({first, first + 1, first + 2});
-  }
-
-  /// A prism with six sides and pointed ends.
-  void spindle(const Vector3d& a, const Vector3d& b) {
-    constexpr int kSides = 6;
-    const Vector3d along = b - a;
-    if (!(along.norm() > 0)) return;
-    const Vector3d u = along.unitOrthogonal(), v = along.normalized().cross(u);
-    const Vector3d inset = std::min(radius_, 0.4 * along.norm()) * along.normalized();
-    const auto ring = [&](int i, const Vector3d& middle) {
-      const double angle = 2 * 3.14159265358979 * i / kSides;
-      return Vector3d(middle + radius_ * (std::cos(angle) * u + std::sin(angle) * v));
-    };
+  void add_splat(const SitePoint& p, double radius) {
+    constexpr int kSides = 8;
+    const Vector3d across = vector_of(spoke_of(p, 1)) - vector_of(spoke_of(p, 0));
+    if (!(across.norm() > 0)) return;
+    const Vector3d u = across.unitOrthogonal(), v = across.normalized().cross(u);
+    std::vector<std::uint32_t> ring;
     for (int i = 0; i < kSides; ++i) {
-      const Point low = point_of(ring(i, a + inset)), next_low = point_of(ring(i + 1, a + inset));
-      const Point high = point_of(ring(i, b - inset)), next_high = point_of(ring(i + 1, b - inset));
-      triangle(point_of(a), next_low, low);
-      triangle(low, next_low, next_high);
-      triangle(low, next_high, high);
-      triangle(point_of(b), high, next_high);
+      const double angle = 2 * std::numbers::pi * i / kSides;
+      ring.push_back(static_cast<std::uint32_t>(mesh_.vertices.size()));
+      mesh_.vertices.push_back(
+          point_of(vector_of(p.point) + std::min(radius, p.distance) * (std::cos(angle) * u + std::sin(angle) * v)));
     }
+    add_ring(ring, {p.sites[0], p.sites[1]});
   }
 
+  std::map<std::array<std::uint32_t, 2>, std::int32_t> numbers_;
   Mesh mesh_;
-  double radius_ = 0;
+  std::vector<std::int32_t> number_of_triangle_;
 };
 
-/// Points as the discs of sheets that are numbered by pair.
-std::vector<MedialSphere> discs_of(const SiteRecord& record) {
-  std::map<std::array<std::uint32_t, 2>, std::int32_t> numbers;
-  for (const SitePair& pair : pairs_of(record.voronoi)) {
-    numbers.try_emplace(pair.sites, static_cast<std::int32_t>(numbers.size()));
+/// In the units of the camera that has `framed` in its frame.
+picture::Painted paint_surface(const SiteVoronoi& voronoi, const Mesh& framed) {
+  const SurfaceMesh surface(voronoi);
+  picture::Painted painted;
+  painted.surface = picture::make_surface(framed, surface.mesh());
+  painted.two_sided = true;
+  painted.light.reserve(painted.surface.positions.size());
+  for (const std::int32_t number : surface.numbers()) {
+    const Eigen::Vector3f light = picture::to_light(picture::sheet_colours()[picture::sheet_colour_index(number)]);
+    painted.light.insert(painted.light.end(), 3, light);
   }
-  std::vector<MedialSphere> discs;
-  discs.reserve(record.voronoi.points.size());
-  for (const SitePoint& p : record.voronoi.points) {
-    MedialSphere disc{};
-    disc.centre = p.point;
-    disc.radius = p.distance;
-    const Point a = spoke_of(p, 0), b = spoke_of(p, 1);
-    for (std::size_t k = 0; k < 3; ++k) {
-      disc.spoke_a[k] = static_cast<float>(a[k]);
-      disc.spoke_b[k] = static_cast<float>(b[k]);
-    }
-    disc.object_angle = static_cast<float>(p.object_angle);
-    const auto number = numbers.find({p.sites[0], p.sites[1]});
-    disc.sheet = number == numbers.end() ? -1 : number->second;
-    disc.voxel = p.voxel;
-    discs.push_back(disc);
-  }
-  return discs;
+  return painted;
 }
 
 std::string short_name(const std::string& name) {
@@ -165,17 +138,18 @@ void add_path(const SitePath& path, const Mesh& mesh, double radius, picture::Sc
 }  // namespace
 
 Picture draw_sites(const SiteRecord& record, std::span<const VoronoiSite> sites, const PictureOptions& options) {
-  const SitesMesh shapes(record.voronoi.grid, sites);
+  // The picture shows the whole box.
+  const Mesh shapes = mesh_of_sites(record.voronoi.grid, sites, BoxCorners::kMarked);
   PictureOptions how = options;
   how.show = PictureShow::kPoints;
   how.colour = PictureColour::kSheet;
-  picture::Scene scene = picture::make_scene(shapes.mesh(), discs_of(record), record.voronoi.grid.side, how);
+  picture::Scene scene = picture::make_scene(shapes, {}, 0, how);
+  scene.painted = paint_surface(record.voronoi, shapes);
   name_pairs(record, scene.legend);
-  if (record.path) add_path(*record.path, shapes.mesh(), kPathShare * shapes.diagonal(), scene);
+  if (record.path) add_path(*record.path, shapes, kPathShare * diagonal_of(record.voronoi.grid), scene);
   Picture picture = picture::blank(how);
-  for (const picture::Panel& panel : picture::panels_of(how.show, picture.width)) {
-    picture::draw_panel(scene, panel, how.view, picture);
-  }
+  const picture::Panel panel = {.width = picture.width, .in_glass = true, .painted = true};
+  picture::draw_panel(scene, panel, how.view, picture);
   picture::draw_legend(scene, picture);
   return picture;
 }

@@ -9,8 +9,8 @@
 
 namespace medial_vk {
 
-/// The sites as glass, and the points between them as discs in a colour for each pair; thin lines and small balls for
-/// segments and points, and a tube for the path. Drawn on the CPU, on one thread.
+/// The sites as glass, and the faces between them as a surface in a colour for each pair, with a disc for each point
+/// that has no face; thin prisms for segments and points, and dots for the path. Drawn on the CPU, on one thread.
 Picture draw_sites(const SiteRecord& record, std::span<const VoronoiSite> sites, const PictureOptions& options);
 
 }  // namespace medial_vk

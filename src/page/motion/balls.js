@@ -6,6 +6,7 @@ import {colourMap, corners, kCornersOfABall, kOpaque, kOrder, material, numbers,
 import attributes from '../shaders/attributes.glsl';
 import ballFragment from '../shaders/ball.frag.glsl';
 import common from '../shaders/common.glsl';
+import screen from '../shaders/screen.glsl';
 import seenBallVertex from '../shaders/seen_ball.vert.glsl';
 import {SeenParts} from './seen_parts.js';
 
@@ -58,7 +59,7 @@ export class BallLayer {
       rectangles: {value: this.rectangles}, colourMap: {value: null}, ballOpacity: {value: 1}};
     const defines = isCover(motion) ? {ORDERED: '', SCREENED: ''} : {ORDERED: ''};
     this.object = placed(new Mesh(corners(kCornersOfABall * count), material(common + attributes + seenBallVertex,
-      common + ballFragment, this.uniforms, {...kOpaque, defines})), kOrder.content);
+      common + screen + ballFragment, this.uniforms, {...kOpaque, defines})), kOrder.content);
     let greatest = 0;
     for (let i = 3; i < this.balls.length; i += 4) greatest = Math.max(greatest, this.balls[i]);
     this.greatest = greatest;

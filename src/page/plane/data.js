@@ -11,5 +11,5 @@ function rowsOf(counts) {
 export function readPlane() {
   const boundary = block('boundary', Float64Array), rings = rowsOf(block('rings', Uint32Array));
   const samples = block('samples', Float64Array), lines = rowsOf(block('lines', Uint32Array));
-  return {...json('plane'), boundary, rings, samples, lines, nodes: block('nodes', Float64Array)};
+  return {...json('plane'), boundary, rings, samples, lines, nodes: block('nodes', Float64Array), path: block('path', Float64Array)};
 }

@@ -3,6 +3,7 @@ import {viridisColour} from '../colours.js';
 import {kAngle, kNumbers, kRadius} from './axis.js';
 
 const kColours = 48;  // a path for each
+const kPathColour = 'rgb(217 26 26)';
 
 function ringsPath({boundary, rings}) {
   const path = new Path2D();
@@ -122,8 +123,20 @@ export class Drawing {
       stroke(this.all, ink('--halo'), 5);
       this.paths.forEach((path, i) => stroke(path, viridisColour(i / (kColours - 1)), 2.6));
     }
+    if (this.plane.path.length > 0) {
+      const path = this.route();
+      stroke(path, ink('--halo'), 6);
+      stroke(path, kPathColour, 3.2);
+    }
     if (layers.nodes) this.drawNodes(ink('--ink'), ink('--paper'));
     if (this.here) this.drawHere(ink('--accent'));
+  }
+
+  /** The widest path between sites, if one was asked for. */
+  route() {
+    const {path} = this.plane, route = new Path2D();
+    for (let i = 0; i < path.length; i += 2) route.lineTo(path[i], path[i + 1]);
+    return route;
   }
 
   drawDiscs(discs, colour) {

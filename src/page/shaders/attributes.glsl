@@ -3,7 +3,9 @@
 // devices, while one list of three hundred thousand corners is not.
 uniform mat4 projectionMatrix, modelViewMatrix;
 uniform vec2 leastAngleRadius;
-uniform int colourBy;             // A component of `values`.
+uniform ivec2 shownPoints;        // The first index that is shown, and the first one behind these.
+uniform int insidePoints;         // The first index of a point outside of the mesh.
+uniform int colourBy;             // A component of `values`, or 4: the side.
 uniform vec2 colourRange;
 uniform sampler2D colourMap;      // Row 0: the map of numbers; row 1: one colour per sheet, in turn.
 #ifdef PICKED
@@ -51,7 +53,8 @@ bool filtered_out(MedialPoint point) {
 #ifdef PICKED
   return false;
 #else
-  return point.values.x < leastAngleRadius.x || point.values.y < leastAngleRadius.y;
+  return point.values.x < leastAngleRadius.x || point.values.y < leastAngleRadius.y || point.index < shownPoints.x
+    || point.index >= shownPoints.y;
 #endif
 }
 
@@ -66,6 +69,7 @@ vec3 attribute_colour(MedialPoint point) {
     if (point.values.w < 0.0) return vec3(0.55, 0.58, 0.62);
     return texelFetch(colourMap, ivec2(int(mod(point.values.w, 12.0)), 1), 0).rgb;
   }
+  if (colourBy == 4) return texelFetch(colourMap, ivec2(point.index < insidePoints ? 0 : 1, 1), 0).rgb;
   float share = (point.values[colourBy] - colourRange.x) / max(colourRange.y - colourRange.x, 1e-12);
   return texelFetch(colourMap, ivec2(int(clamp(share, 0.0, 1.0) * 255.0 + 0.5), 0), 0).rgb;
 #endif

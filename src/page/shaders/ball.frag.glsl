@@ -4,17 +4,13 @@ uniform mat4 projectionMatrix;
 out vec4 pixel;
 #ifdef SCREENED
 uniform float ballOpacity;
-// A pixel in sixteen for each step, evenly spread (ordered dithering).
-const float kThresholds[16] = float[16](0.0, 8.0, 2.0, 10.0, 12.0, 4.0, 14.0, 6.0, 3.0, 11.0, 1.0, 9.0, 15.0, 7.0, 13.0, 5.0);
 #endif
 
 const float kPowerShift = 0.05;  // At most 0.0125 of the model.
 
 void main() {
 #ifdef SCREENED
-  // Pixels are left out in all balls alike, so that what they hide is seen between them, without an order of drawing.
-  ivec2 place = ivec2(gl_FragCoord.xy) & 3;
-  if (kThresholds[4 * place.y + place.x] + 0.5 > 16.0 * ballOpacity) discard;
+  if (left_out(ballOpacity)) discard;
 #endif
   vec3 direction = normalize(ray);
   float along = dot(direction, ball.xyz);

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -96,6 +97,26 @@ TEST_F(SidesOfATool, BothSidesAreMarkedAndHaveSheetsOfTheirOwn) {
   }
   EXPECT_FALSE(json["union"].is_null());
   EXPECT_FALSE(json["outside_union"].is_null());
+  ASSERT_EQ(json["sides"].size(), 2u);
+  std::size_t sheets = 0, undecided = 0;
+  for (const std::size_t s : {0, 1}) {
+    const nlohmann::json& side = json["sides"][s];
+    EXPECT_EQ(side["side"], s == 0 ? "inside" : "outside");
+    EXPECT_EQ(side["points"], s == 0 ? inside : outside);
+    EXPECT_EQ(side["union_volume"], json[s == 0 ? "union" : "outside_union"]["volume"]);
+    double area = 0, greatest = 0;
+    for (const nlohmann::json& sheet : json["sheets"])
+      area += sheet["side"] == side["side"] ? sheet["area"].get<double>() : 0;
+    for (const nlohmann::json& point : written) {
+      if (point["side"] == side["side"]) greatest = std::max(greatest, point["radius"].get<double>());
+    }
+    EXPECT_NEAR(side["area"].get<double>(), area, 1e-12 * area);
+    EXPECT_EQ(side["radius"]["greatest"], greatest);
+    sheets += side["sheets"].get<std::size_t>();
+    undecided += side["undecided"].get<std::size_t>();
+  }
+  EXPECT_EQ(sheets, json["sheets"].size());
+  EXPECT_EQ(undecided, json["voxels"]["undecided"]);
 }
 
 TEST_F(SidesOfATool, EveryFormatNamesTheSide) {

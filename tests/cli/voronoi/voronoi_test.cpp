@@ -137,6 +137,19 @@ TEST_F(VoronoiCommand, ShapesOfThePlaneHaveCurvesBetweenThem) {
   EXPECT_THAT(crossing.err, HasSubstr("must be apart"));
 }
 
+TEST_F(VoronoiCommand, PagesAreWrittenBesideTheResult) {
+  write_file(scratch_.path("one.csv"), "x,y\n0,0\n1,0\n1,1\n0,1\n");
+  write_file(scratch_.path("two.csv"), "x,y\n3,0\n4,0\n4,1\n3,1\n");
+  const ToolResult space = run({"a.obj", "b.obj", "--resolution", "16", "-q", "--html", "v.html"});
+  if (space.exit_code == 2 && space.err.find("was built without its page") != std::string::npos) GTEST_SKIP();
+  ASSERT_EQ(space.exit_code, 0) << space.err;
+  // tests/page shows what is in it.
+  EXPECT_THAT(read_file(scratch_.path("v.html")), HasSubstr(R"("sites":[{"name":"a","kind":"solid"})"));
+  ASSERT_EQ(run({"one.csv", "two.csv", "-q", "--html", "p.html"}).exit_code, 0);
+  EXPECT_THAT(read_file(scratch_.path("p.html")), HasSubstr(R"("branches",1])"));
+  EXPECT_EQ(run({"a.obj", "b.obj", "--html", "v.htm"}).exit_code, 2);
+}
+
 TEST_F(VoronoiCommand, ShapesOfThePlaneThatTouchAreRefused) {
   const std::string square = "x,y\n0,0\n1,0\n1,1\n0,1\n";
   const std::string triangle = "x,y\n0,0\n1,0\n0.5,1\n";
@@ -165,15 +178,62 @@ TEST_F(VoronoiCommand, ShapesOfThePlaneThatTouchAreRefused) {
 TEST_F(VoronoiCommand, OptionsOfSpaceAreRefusedInThePlane) {
   write_file(scratch_.path("one.csv"), "x,y\n0,0\n1,0\n1,1\n0,1\n");
   write_file(scratch_.path("two.csv"), "x,y\n3,0\n4,0\n4,1\n3,1\n");
-  for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
-           {"--check"}, {"--resolution", "160"}, {"--from", ""}, {"--to", ""}, {"--from", "0,0,0", "--to", "1,1,1"}}) {
+  for (const std::vector<std::string>& options :
+       std::vector<std::vector<std::string>>{{"--resolution", "160"}, {"--split"}, {"--ascii"}}) {
     std::vector<std::string> arguments = {"one.csv", "two.csv"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     const ToolResult result = run(arguments);
     EXPECT_EQ(result.exit_code, 2) << options[0];
-    const bool is_empty = options.back().empty();  // no number, in space neither
-    EXPECT_THAT(result.err, HasSubstr(is_empty ? "'' is not" : "about sites in space"));
+    EXPECT_THAT(result.err, HasSubstr("about sites in space"));
   }
+  // Places of the plane have two numbers.
+  for (const char* place : {"", "1", "1,2,3"}) {
+    const ToolResult result = run({"one.csv", "two.csv", "--roadmap", "m.json", "--from", place, "--to", "2,2"});
+    EXPECT_EQ(result.exit_code, 2) << place;
+    EXPECT_THAT(result.err, HasSubstr("is not")) << place;
+  }
+}
+
+TEST_F(VoronoiCommand, ARoadmapOfThePlaneHasTheExactWidthOfTheGap) {
+  write_file(scratch_.path("one.csv"), "x,y\n0,0\n1,0\n1,1\n0,1\n");
+  write_file(scratch_.path("two.csv"), "x,y\n3,0\n4,0\n4,1\n3,1\n");
+  const ToolResult result = run(
+      {"one.csv", "two.csv", "--roadmap", "m.json", "--from", "2,0", "--to", "2,1", "--check", "--report", "r.json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
+  EXPECT_THAT(result.out, HasSubstr("samples of the exact curves are on the arcs"));
+  EXPECT_THAT(result.out, HasSubstr("no site is nearer to a link or the path than its width"));
+  EXPECT_THAT(result.err, HasSubstr("path      width 1, length 1"));
+  const auto map = json_of("m.json"), report = json_of("r.json"), curves = json_of("one.voronoi.json");
+  // 2 epsilons by proof, and what a node is beside its arc.
+  const double least = 1 - 3 * map["epsilon"].get<double>();
+  EXPECT_LE(map["path"]["width"].get<double>(), 1);
+  EXPECT_GE(map["path"]["width"].get<double>(), least);
+  EXPECT_EQ(map["path"]["line"].front(), nlohmann::json({2.0, 0.0}));
+  EXPECT_EQ(map["components"], 1);
+  EXPECT_EQ(map["nodes"].size(), curves["nodes"].size());
+  ASSERT_EQ(map["links"].size(), curves["arcs"].size());
+  for (const auto& link : map["links"]) {
+    EXPECT_EQ(link["nodes"], curves["arcs"][link["arc"].get<std::size_t>()]["nodes"]);
+    EXPECT_GE(link["width"].get<double>(), least);
+  }
+  EXPECT_EQ(report["path"]["width"], map["path"]["width"]);
+  EXPECT_EQ(report["roadmap"]["links"], map["links"].size());
+  const ToolResult inside = run({"one.csv", "two.csv", "--roadmap", "m.json", "--from", "0.5,0.5", "--to", "2,2"});
+  EXPECT_EQ(inside.exit_code, 2);
+  EXPECT_THAT(inside.err, HasSubstr("--from must be outside of all sites"));
+  // The second shape is in a hole of the first one: from there no curve leads out.
+  write_file(scratch_.path("ring.wkt"), "POLYGON ((-9 -9, 9 -9, 9 9, -9 9, -9 -9), (-3 -3, -3 3, 3 3, 3 -3, -3 -3))");
+  write_file(scratch_.path("core.wkt"), "POLYGON ((-1 -1, 1 -1, 1 1, -1 1, -1 -1))");
+  const ToolResult closed =
+      run({"ring.wkt", "core.wkt", "--roadmap", "m.json", "--from", "2,0", "--to", "10,10", "--check"});
+  ASSERT_EQ(closed.exit_code, 0) << closed.err << closed.out;
+  EXPECT_THAT(closed.err, HasSubstr("none found from 2,0 to 10,10"));
+  const ToolResult around = run({"ring.wkt", "core.wkt", "--roadmap", "m.json", "--from", "1.8,1.8", "--to",
+                                 "-1.8,-1.8", "--check", "-o", "c.svg", "--picture", "c.png"});
+  ASSERT_EQ(around.exit_code, 0) << around.err;
+  EXPECT_THAT(read_file(scratch_.path("c.svg")), HasSubstr("stroke=\"#d91a1a\" points=\"1.8,-1.8 "));
+  EXPECT_THAT(read_file(scratch_.path("c.png")).substr(0, 4), "\x89PNG");
+  EXPECT_NEAR(json_of("m.json")["path"]["width"].get<double>(), 1, 1e-3);
 }
 
 TEST_F(VoronoiCommand, APathThatIsNotFoundIsNamed) {
@@ -215,10 +275,51 @@ TEST_F(VoronoiCommand, WrongUseAndInvalidSitesHaveTheirExitCodes) {
 
 TEST_F(VoronoiCommand, OverlapsAreReported) {
   write_file(scratch_.path("c.obj"), test::to_obj(test::moved(test::make_box({1, 1, 1}), {0.6, 0.3, 0.2})));
-  const ToolResult result = run({"a.obj", "c.obj", "--resolution", "16", "--report", "r.json"});
+  const ToolResult result =
+      run({"a.obj", "c.obj", "--resolution", "16", "--margin", "0.5", "--report", "r.json", "-o", "v.json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.err, HasSubstr("a and c overlap"));
-  EXPECT_EQ(json_of("r.json")["surface"]["overlaps"], nlohmann::json({{0, 1}}));
+  const auto report = json_of("r.json"), surface = json_of("v.json");
+  EXPECT_EQ(report["surface"]["overlaps"], nlohmann::json({{0, 1}}));
+  const auto& listed = report["voxels"]["overlapping"];
+  ASSERT_FALSE(surface["overlapping"].empty());
+  EXPECT_EQ(listed["count"], surface["overlapping"].size());
+  EXPECT_EQ(report["surface"]["overlapping_voxels"], surface["overlapping"].size());
+  ASSERT_EQ(listed["first"].size(), std::min<std::size_t>(surface["overlapping"].size(), 1000));
+  // A voxel that overlaps is near both boxes: within half of its diagonal and that of its neighbours.
+  const double reach = 1.5 * std::sqrt(3.0) * surface["grid"]["voxel_side"].get<double>();
+  const std::array<double, 3> lower = {0.6, 0.3, 0.2};
+  for (std::size_t i = 0; i < listed["first"].size(); ++i) {
+    EXPECT_EQ(listed["first"][i]["voxel"], surface["overlapping"][i]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double middle = listed["first"][i]["middle"][k];
+      EXPECT_GE(middle, lower[k] - reach);
+      EXPECT_LE(middle, 1 + reach);
+    }
+  }
+}
+
+TEST_F(VoronoiCommand, TiedVoxelsAreListedUpToALimit) {
+  // Two triangles with a common edge along x: on the far side of it, both are as near by the same points of it.
+  const std::vector<std::string> sites = {"--triangle", "0,0,0,1,0,0,0.5,1,0", "--triangle", "0,0,0,1,0,0,0.5,0,1"};
+  std::vector<std::string> arguments = sites;
+  arguments.insert(arguments.end(), {"--resolution", "40", "--report", "r.json", "-o", "v.npz"});
+  const ToolResult result = run(arguments);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto report = json_of("r.json");
+  const auto& tied = report["voxels"]["tied"];
+  ASSERT_GT(tied["count"].get<std::size_t>(), 1000u);
+  EXPECT_EQ(tied["first"].size(), 1000u);
+  EXPECT_EQ(report["voxels"]["listed_at_most"], 1000);
+  const double half = 0.5 * report["grid"]["voxel_side"].get<double>();
+  for (const auto& voxel : tied["first"]) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double middle =
+          report["grid"]["origin"][k].get<double>() + (2 * voxel["voxel"][k].get<double>() + 1) * half;
+      EXPECT_NEAR(voxel["middle"][k].get<double>(), middle, 1e-12);
+    }
+  }
+  EXPECT_THAT(read_file(scratch_.path("v.npz")), HasSubstr("tied.npy"));
 }
 
 }  // namespace

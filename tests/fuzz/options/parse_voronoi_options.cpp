@@ -24,7 +24,7 @@ void require_usable(const cli::VoronoiCommandOptions& options) {
   require(options.from.has_value() == options.to.has_value(), "--from and --to come together");
   require(!options.from || !options.roadmap.empty(), "a path is on a roadmap");
   require(!options.in_plane || sites == options.files.size(), "sites of the plane are files");
-  require(!options.in_plane || options.roadmap.empty(), "roadmaps are in space");
+  require(!options.in_plane || !options.from || (*options.from)[2] == 0, "places in the plane have two numbers");
   for (const Point& p : options.points) require_coordinates(p);
   for (const auto& segment : options.segments) {
     for (const Point& p : segment) require_coordinates(p);

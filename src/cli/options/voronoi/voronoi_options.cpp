@@ -24,22 +24,28 @@ struct CoordinateTexts {
   bool has_from = false, has_to = false, has_resolution = false;
 };
 
-/// Numbers with commas between them.
-template <std::size_t kCount>
+bool is_shape_file(const std::string& file) {
+  const std::string extension = file_extension(file);
+  return extension == ".svg" || extension == ".geojson" || extension == ".wkt" || extension == ".csv";
+}
+
+/// Numbers with commas between them: those of places in space, or in the plane, of which the third number is 0.
+template <std::size_t kCount, std::size_t kDimensions = 3>
 Result<std::array<Point, kCount>> parse_places(const char* option, const std::string& text) {
+  constexpr std::size_t kNumbers = kDimensions * kCount;
   std::array<Point, kCount> places = {};
   std::size_t begin = 0, count = 0;
-  while (begin <= text.size() && count < 3 * kCount) {
+  while (begin <= text.size() && count < kNumbers) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     const Result<double> number =
         parse_real(text.substr(begin, end - begin), {-kGreatestSiteLength, kGreatestSiteLength, true}, "");
     if (!number) return usage_error(fmt::format("{}: {}", option, number.error().message));
-    places[count / 3][count % 3] = number.value();
+    places[count / kDimensions][count % kDimensions] = number.value();
     ++count;
     begin = end + 1;
   }
-  if (count < 3 * kCount || begin <= text.size()) {
-    return usage_error(fmt::format("{}: '{}' is not {} numbers with commas between them", option, text, 3 * kCount));
+  if (count < kNumbers || begin <= text.size()) {
+    return usage_error(fmt::format("{}: '{}' is not {} numbers with commas between them", option, text, kNumbers));
   }
   return places;
 }
@@ -58,9 +64,11 @@ Status take_places(const char* option, const std::vector<std::string>& texts, st
   return {};
 }
 
-Status take_end(const char* option, bool is_given, const std::string& text, std::optional<Point>& target) {
+Status take_end(const char* option, bool is_given, bool in_plane, const std::string& text,
+                std::optional<Point>& target) {
   if (!is_given) return {};
-  const Result<std::array<Point, 1>> place = parse_places<1>(option, text);
+  const Result<std::array<Point, 1>> place =
+      in_plane ? parse_places<1, 2>(option, text) : parse_places<1>(option, text);
   if (!place) return place.error();
   target = place.value()[0];
   return {};
@@ -70,8 +78,9 @@ Status take_coordinates(const CoordinateTexts& texts, VoronoiCommandOptions& opt
   if (Status status = take_places<1>("--point", texts.points, options.points); !status) return status;
   if (Status status = take_places<2>("--segment", texts.segments, options.segments); !status) return status;
   if (Status status = take_places<3>("--triangle", texts.triangles, options.triangles); !status) return status;
-  if (Status status = take_end("--from", texts.has_from, texts.from, options.from); !status) return status;
-  return take_end("--to", texts.has_to, texts.to, options.to);
+  const bool in_plane = std::ranges::any_of(options.files, is_shape_file);
+  if (Status status = take_end("--from", texts.has_from, in_plane, texts.from, options.from); !status) return status;
+  return take_end("--to", texts.has_to, in_plane, texts.to, options.to);
 }
 
 void declare_voronoi(CLI::App& app, VoronoiCommandOptions& options, CoordinateTexts& texts, ViewChoice& view) {
@@ -91,6 +100,7 @@ void declare_voronoi(CLI::App& app, VoronoiCommandOptions& options, CoordinateTe
   add.view("--view", view);
   add.up("--up", options.picture_options.view.up);
   add.size("--size", options.picture_options.size);
+  add.text("--html", "file", options.html);
   add.text("--report", "file", options.report);
   add.text("--roadmap", "file", options.roadmap);
   add.text("--from", "numbers", texts.from);
@@ -104,11 +114,6 @@ void declare_voronoi(CLI::App& app, VoronoiCommandOptions& options, CoordinateTe
   add.flag("-h,--help", options.help);
 }
 
-bool is_shape_file(const std::string& file) {
-  const std::string extension = file_extension(file);
-  return extension == ".svg" || extension == ".geojson" || extension == ".wkt" || extension == ".csv";
-}
-
 /// Whether the sites are in space or in the plane, and that they are not of both.
 Status choose_dimension(const CoordinateTexts& texts, VoronoiCommandOptions& options) {
   const auto shapes = std::ranges::count_if(options.files, is_shape_file);
@@ -119,11 +124,8 @@ Status choose_dimension(const CoordinateTexts& texts, VoronoiCommandOptions& opt
   }
   const bool has_spatial = !options.points.empty() || !options.segments.empty() || !options.triangles.empty();
   if (has_spatial) return usage_error("--point, --segment and --triangle are sites in space, not in the plane");
-  if (options.split || options.ascii || !options.roadmap.empty()) {
-    return usage_error("--split, --ascii and --roadmap are about sites in space");
-  }
-  if (options.check || texts.has_resolution || texts.has_from || texts.has_to) {
-    return usage_error("--check, --resolution, --from and --to are about sites in space");
+  if (options.split || options.ascii || texts.has_resolution) {
+    return usage_error("--split, --ascii and --resolution are about sites in space");
   }
   return {};
 }
@@ -144,7 +146,7 @@ Status check_site_files(const VoronoiCommandOptions& options) {
       return usage_error(fmt::format("{}: '{}' does not end in .json", option, *file));
     }
   }
-  if (Status status = check_view_files(options.picture, {}); !status) return status;
+  if (Status status = check_view_files(options.picture, options.html); !status) return status;
   for (const std::string& file : options.files) {
     if (Status status = check_outputs_differ(outputs_of(options), file); !status) return status;
   }
@@ -177,6 +179,7 @@ SitesFormat VoronoiCommandOptions::format() const {
 std::vector<NamedOutput> outputs_of(const VoronoiCommandOptions& options) {
   return {{"--output", &options.output},
           {"--picture", &options.picture},
+          {"--html", &options.html},
           {"--report", &options.report},
           {"--roadmap", &options.roadmap}};
 }
@@ -218,7 +221,8 @@ Result<VoronoiCommandOptions> VoronoiOptionParser::parse(const std::vector<std::
   if (Status status = choose_dimension(declared_->texts, options); !status) return status.error();
   if (options.from.has_value() != options.to.has_value()) return usage_error("--from and --to are used together");
   if (options.from && options.roadmap.empty()) return usage_error("--from and --to are about --roadmap");
-  if (Status status = take_view(declared_->view, !options.picture.empty(), options.picture_options.view); !status) {
+  const bool is_drawn = !options.picture.empty() || !options.html.empty();
+  if (Status status = take_view(declared_->view, is_drawn, options.picture_options.view); !status) {
     return status.error();
   }
   if (options.in_plane && options.picture_options != PictureOptions()) {

@@ -27,7 +27,7 @@ struct VoronoiCommandOptions {
   std::vector<std::array<Point, 3>> triangles;
   bool split = false;
   std::string output;  ///< "-": PLY, or of the plane JSON, on standard output.
-  std::string picture, report, roadmap;
+  std::string picture, html, report, roadmap;
   std::optional<Point> from, to;
   std::uint32_t resolution = SiteVoronoiOptions().resolution;
   double margin = 0;

@@ -22,6 +22,7 @@ const Vector3f kWarmGlass(0.62f, 0.33f, 0.05f);
 const Vector3f kColdGlass(0.05f, 0.30f, 0.70f);
 const Vector3f kInk(0.04f, 0.055f, 0.08f);
 const Vector3f kHaze(0.85f, 0.88f, 0.91f);
+constexpr float kSurfaceCover = 0.95f;  // Of a painted surface in glass.
 const Vector3f kLow(0.80f, 0.84f, 0.885f);
 
 Vector3f mix(const Vector3f& a, const Vector3f& b, float share) { return a + share * (b - a); }
@@ -60,7 +61,7 @@ class Composer {
   Vector3f sample(std::uint32_t x, std::uint32_t y, float height_share) const {
     const std::size_t pixel = std::size_t{y} * layers_.front.width + x;
     Vector3f colour = background(height_share);
-    if (in_glass_) return ball_in_glass(colour, x, y, pixel);
+    if (in_glass_) return mark_in_glass(colour, x, y, pixel);
     if (layers_.back.nearness[pixel] > 0)
       colour = over_back_wall(colour, layers_.back.normal[pixel], layers_.back.tint[pixel]);
     if (layers_.marks.surface.nearness[pixel] > 0) colour = mark(x, y, pixel);
@@ -71,19 +72,20 @@ class Composer {
   }
 
  private:
-  /// A ball may lie before both walls, between them or behind them.
-  Vector3f ball_in_glass(Vector3f colour, std::uint32_t x, std::uint32_t y, std::size_t pixel) const {
+  /// A ball or a painted surface may lie before both walls, between them or behind them. A surface shows a little of
+  /// what is behind it, which it would hide altogether.
+  Vector3f mark_in_glass(Vector3f colour, std::uint32_t x, std::uint32_t y, std::size_t pixel) const {
     const float back = layers_.back.nearness[pixel], front = layers_.front.nearness[pixel];
-    const float ball = layers_.marks.surface.nearness[pixel];
-    const auto draw_ball = [&](bool is_next) {
-      if (ball > 0 && is_next) colour = mark(x, y, pixel);
+    const float nearness = layers_.marks.surface.nearness[pixel];
+    const auto draw_mark = [&](bool is_next) {
+      if (nearness > 0 && is_next) colour = mix(colour, mark(x, y, pixel), painted_ ? kSurfaceCover : 1.0f);
     };
-    draw_ball(ball <= back);
+    draw_mark(nearness <= back);
     if (back > 0) colour = over_back_wall(colour, layers_.back.normal[pixel], layers_.back.tint[pixel]);
-    draw_ball(ball > back && ball <= front);
+    draw_mark(nearness > back && nearness <= front);
     if (front > 0) colour = over_front_wall(colour, layers_.front.normal[pixel], layers_.front.tint[pixel]);
     if (on_line(x, y)) colour = mix(colour, kInk, 0.60f);
-    draw_ball(ball > std::max(back, front));
+    draw_mark(nearness > std::max(back, front));
     return colour;
   }
 
@@ -204,7 +206,7 @@ std::vector<Mark> balls_in(const std::vector<Mark>& balls, const Band& band) {
 /// The layers of a band.
 void draw_layers(const Scene& scene, const Panel& panel, const Camera& camera, const std::vector<Mark>& balls,
                  const Band& band, Layers& layers) {
-  if (panel.painted) {
+  if (panel.painted && !panel.in_glass) {
     draw_mesh(scene.mesh, camera, Keep::kNearest, layers.front);
     draw_painted(scene.painted, camera, layers.marks);
   } else if (panel.balls) {
@@ -212,7 +214,9 @@ void draw_layers(const Scene& scene, const Panel& panel, const Camera& camera, c
   } else {
     draw_mesh(scene.mesh, camera, Keep::kNearest, layers.front);
     draw_mesh(scene.mesh, camera, Keep::kFarthest, layers.back);
-    if (panel.in_glass) {
+    if (panel.painted) {
+      draw_painted(scene.painted, camera, layers.marks);
+    } else if (panel.in_glass) {
       draw_balls(balls_in(balls, band), camera, kCpuSamples, layers.marks);
     } else {
       draw_discs(scene.discs, camera, kLeastDiscRadius * kCpuSamples, layers.marks);

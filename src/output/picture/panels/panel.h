@@ -17,7 +17,8 @@ struct Panel {
   std::uint32_t width = 0;
   bool balls = false;     // Otherwise the mesh with the discs.
   bool in_glass = false;  // The mesh with balls, inside and outside of it, instead of discs. The CPU alone draws this.
-  bool painted = false;   // The painted surface alone. The CPU alone draws this.
+  // The painted surface alone or, in glass, inside and outside of the mesh instead of balls. The CPU alone draws this.
+  bool painted = false;
 };
 
 /// A white picture of the size that the options choose.

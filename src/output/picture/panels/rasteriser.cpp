@@ -215,7 +215,8 @@ void draw_painted(const Painted& painted, const Camera& camera, MarkLayer& layer
                [&](std::size_t pixel, float nearness, const Vector3f& weights) {
                  if (nearness <= surface.nearness[pixel]) return;
                  surface.nearness[pixel] = nearness;
-                 surface.normal[pixel] = mean(seen.normals, weights).normalized();
+                 const Vector3f normal = mean(seen.normals, weights).normalized();
+                 surface.normal[pixel] = painted.two_sided && normal.z() < 0 ? Vector3f(-normal) : normal;
                  layer.paint[pixel] = mean(light, weights);
                });
   }

@@ -155,6 +155,8 @@ Mark make_mark(const Mesh& mesh, const Point& centre, double radius, std::size_t
   return {placement.point(centre), placement.length(radius), Vector3f::UnitZ(), static_cast<float>(colour), {}};
 }
 
+Surface make_surface(const Mesh& framed, const Mesh& mesh) { return make_surface(mesh, Placement(framed.vertices)); }
+
 Scene make_scene(const Mesh& mesh, std::span<const MedialSphere> spheres, double voxel_size,
                  const PictureOptions& options) {
   const std::vector<Point> shown = points_in_frame(mesh, spheres, options);

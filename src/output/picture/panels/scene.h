@@ -47,6 +47,7 @@ struct Legend {
 struct Painted {
   Surface surface;
   std::vector<Eigen::Vector3f> light;
+  bool two_sided = false;  // It is lit on the side that is seen; otherwise its normals point outwards.
 };
 
 struct Scene {
@@ -65,6 +66,9 @@ Eigen::AlignedBox3d box_of(const Mesh& mesh);
 
 /// A ball of `colour`, by its index in the palette, in the units of the camera that make_scene() has for the mesh.
 Mark make_mark(const Mesh& mesh, const Point& centre, double radius, std::size_t colour);
+
+/// Another mesh, in the units of the camera that make_scene() has for `framed`.
+Surface make_surface(const Mesh& framed, const Mesh& mesh);
 
 /// `voxel_size` is in units of the mesh. Discs and balls are made only if they are shown.
 Scene make_scene(const Mesh& mesh, std::span<const MedialSphere> spheres, double voxel_size,
