@@ -12,7 +12,9 @@ lock, stop at Ctrl-C, and give the same bytes for the same input on the same dev
 
 from __future__ import annotations
 
-from . import errors
+import atexit as _atexit
+
+from . import _native, errors
 from ._analysis import (
     Analysis,
     Certificate,
@@ -151,3 +153,6 @@ __all__ = [
     "rigid_pose",
     "thickness",
 ]
+
+# Calls that Ctrl-C has ended may still use a device.
+_atexit.register(_native.wait_for_abandoned)

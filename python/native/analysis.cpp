@@ -69,10 +69,9 @@ std::shared_ptr<AnalysisHandle> analyse_mesh(const MeshHandle& mesh, const Conte
   const AnalysisOptions options = analysis_options(std::move(values));
   const auto call = std::make_shared<Call>();
   const StageProgress on_progress = stage_progress(call, progress);
-  Analysis result = value_of(run(call, [&] {
-    return context->use(call->token(), [&](Context& device) {
-      return analyse(mesh.mesh, options, device, on_progress, call->token());
-    });
+  Analysis result = value_of(run(call, [mesh = mesh.mesh, context, options, on_progress, call] {
+    return context->use(call->token(),
+                        [&](Context& device) { return analyse(mesh, options, device, on_progress, call->token()); });
   }));
   return std::make_shared<AnalysisHandle>(AnalysisHandle{mesh.mesh, options, context->device(), std::move(result)});
 }

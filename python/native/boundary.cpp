@@ -20,6 +20,9 @@ struct CurvatureHandle {
   BoundaryCurvature curvature;
 };
 
+/// Fewer points, or balls, are measured on the calling thread.
+constexpr std::size_t kFewTips = 16;
+
 void read_side(Options& options, ThicknessSide& side) {
   options.read("side", side,
                std::array{std::pair{std::string_view("walls"), ThicknessSide::kWalls},
@@ -43,12 +46,15 @@ ThicknessOptions thickness_options(py::dict values) {
 }
 
 py::dict thickness(const MeshHandle& mesh, py::handle array, py::dict values, const py::object& progress) {
-  const std::vector<Point> points = points_of(array, "points");
+  std::vector<Point> points = points_of(array, "points");
+  const bool is_short = points.size() <= kFewTips;
   const ThicknessOptions options = thickness_options(std::move(values));
   const auto call = std::make_shared<Call>();
   const ProgressCallback on_progress = progress_of_stage(call, progress, "thickness");
-  const std::vector<Thickness> measured =
-      value_of(run(call, [&] { return measure_thickness(mesh.mesh, points, options, on_progress, call->token()); }));
+  const std::vector<Thickness> measured = value_of(
+      run_unless_short(is_short, call, [mesh = mesh.mesh, points = std::move(points), options, on_progress, call] {
+        return measure_thickness(mesh, points, options, on_progress, call->token());
+      }));
   py::dict out;
   out["lower"] = column(measured, [](const Thickness& at) { return at.diameter.lower; });
   out["upper"] = column(measured, [](const Thickness& at) { return at.diameter.upper; });
@@ -73,8 +79,9 @@ py::dict least_wall(const MeshHandle& mesh, py::dict values, const py::object& p
   options.finish();
   const auto call = std::make_shared<Call>();
   const ProgressCallback on_progress = progress_of_stage(call, progress, "least wall");
-  const LeastWall found =
-      value_of(run(call, [&] { return measure_least_wall(mesh.mesh, made, on_progress, call->token()); }));
+  const LeastWall found = value_of(run(call, [mesh = mesh.mesh, made, on_progress, call] {
+    return measure_least_wall(mesh, made, on_progress, call->token());
+  }));
   py::dict out;
   out["lower"] = found.diameter.lower;
   out["upper"] = found.diameter.upper;
@@ -122,12 +129,14 @@ std::shared_ptr<CurvatureHandle> curvature(py::handle centres, py::handle radii,
                                            py::handle spokes_b, py::dict values, const py::object& progress) {
   auto made = std::make_shared<CurvatureHandle>();
   made->balls = balls_of(centres, radii);
+  const bool is_short = made->balls.size() <= kFewTips;
   const std::vector<SpokePair> spokes = spokes_of(spokes_a, spokes_b);
   const CurvatureOptions options = curvature_options(std::move(values));
   const auto call = std::make_shared<Call>();
   const StageProgress on_progress = stage_progress(call, progress);
-  made->curvature =
-      value_of(run(call, [&] { return measure_curvature(made->balls, options, spokes, on_progress, call->token()); }));
+  made->curvature = value_of(run_unless_short(is_short, call, [made, spokes, options, on_progress, call] {
+    return measure_curvature(made->balls, options, spokes, on_progress, call->token());
+  }));
   return made;
 }
 
@@ -146,7 +155,7 @@ py::dict tips(const CurvatureHandle& handle, std::size_t tip) {
   return out;
 }
 
-py::dict at_vertices(const CurvatureHandle& handle, const MeshHandle& mesh, py::dict values,
+py::dict at_vertices(const std::shared_ptr<CurvatureHandle>& handle, const MeshHandle& mesh, py::dict values,
                      const py::object& progress) {
   VertexCurvatureOptions made;
   Options options(std::move(values));
@@ -158,8 +167,8 @@ py::dict at_vertices(const CurvatureHandle& handle, const MeshHandle& mesh, py::
   options.finish();
   const auto call = std::make_shared<Call>();
   const StageProgress on_progress = stage_progress(call, progress);
-  const std::vector<VertexCurvature> measured = value_of(run(call, [&] {
-    return curvature_at_vertices(mesh.mesh, handle.balls, handle.curvature, made, on_progress, call->token());
+  const std::vector<VertexCurvature> measured = value_of(run(call, [mesh = mesh.mesh, handle, made, on_progress, call] {
+    return curvature_at_vertices(mesh, handle->balls, handle->curvature, made, on_progress, call->token());
   }));
   py::dict out;
   out["states"] = column(measured, [](const VertexCurvature& at) { return static_cast<std::uint8_t>(at.state); });

@@ -4,9 +4,9 @@
 
 #include <pybind11/pybind11.h>
 
+#include <atomic>
 #include <condition_variable>
 #include <exception>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -22,13 +22,17 @@ namespace medial_vk::python {
 /// One long call, as its two threads see it.
 class Call {
  public:
-  std::stop_token token() const { return stop_.get_token(); }
-  void request_stop() { stop_.request_stop(); }
+  ~Call();
+
+  /// For the library: a request to stop the work.
+  std::stop_token token() {
+    is_stoppable_ = true;
+    return stop_.get_token();
+  }
 
   /// The calling thread, which holds the interpreter's lock: waits until the work has ended, and handles signals
-  /// meanwhile. True: it has ended; false: a signal handler raised an exception, which is set in the interpreter.
-  bool wait_or_signal();
-  /// Waits without regard to signals, after request_stop().
+  /// meanwhile. If a handler raises, the work is stopped, and the exception thrown as soon as the work has ended, or
+  /// after some hundredths of a second: the work is then abandoned, and ends by itself.
   void wait();
   /// The working thread.
   void finish();
@@ -38,80 +42,69 @@ class Call {
   /// Throws the exception of the callback, if there was one.
   void rethrow();
 
+  /// At the end of the process: waits, for two seconds at most, until abandoned work that can be stopped has ended, for
+  /// it may use a device whose driver is about to be unloaded.
+  static void wait_for_abandoned();
+
  private:
   bool ended_within(int milliseconds);
 
   std::stop_source stop_;
+  std::atomic<bool> is_stoppable_ = false;
   std::mutex mutex_;
   std::condition_variable condition_;
   bool has_ended_ = false;
-  std::optional<pybind11::error_already_set> raised_;  // of the callback; read after the work has ended
+  bool is_abandoned_ = false;                          // under the interpreter's lock
+  bool is_counted_ = false;                            // among the abandoned ones
+  std::optional<pybind11::error_already_set> raised_;  // of the callback; under the interpreter's lock
 };
 
-/// The library's callback for a Python function (stage, done), or none for None. It refers to both arguments.
+/// The library's callback for a Python function (stage, done), or none for None. The function must live until the call
+/// ends. The callback is copied on threads that do not hold the interpreter's lock, and owns nothing of Python.
 StageProgress stage_progress(const std::shared_ptr<Call>& call, const pybind11::object& callback);
 /// The same for calls of one stage, which gets this name. The name must outlive the callback.
 ProgressCallback progress_of_stage(const std::shared_ptr<Call>& call, const pybind11::object& callback,
                                    const char* stage);
 
-/// Runs work(call) -> Result<T> or Status on a thread of its own, and returns its result. After a signal whose handler
-/// raises, or an exception of a progress callback, the work is stopped, and that exception is thrown once it has ended.
+/// Runs work() on a thread of its own, and returns its result (a Result or a Status of the library). The work must own
+/// all that it uses, and touch no object of Python, as it may be abandoned: Call::wait().
 template <class Work>
 auto run(const std::shared_ptr<Call>& call, Work work) {
-  std::optional<decltype(work())> result;
-  std::exception_ptr thrown;
-  std::thread thread([&] {
-    try {
-      result.emplace(work());
-    } catch (...) {
-      thrown = std::current_exception();
-    }
-    call->finish();
-  });
-  std::optional<pybind11::error_already_set> signal;
-  if (!call->wait_or_signal()) {
-    signal.emplace();
-    call->request_stop();
-    call->wait();
-  }
-  {
-    const pybind11::gil_scoped_release released;
-    thread.join();
-  }
-  if (signal) throw pybind11::error_already_set(*signal);
-  call->rethrow();
-  if (thrown) std::rethrow_exception(thrown);
-  return std::move(*result);
-}
-
-/// The same for work that cannot be stopped: after a signal the call ends at once, and the work, which must own all
-/// that it uses and touch no object of Python, goes on to its end for nothing.
-template <class Work>
-auto run_or_abandon(Work work) {
   struct Shared {
-    Call call;
+    std::shared_ptr<Call> call;
     std::optional<decltype(work())> result;
     std::exception_ptr thrown;
   };
   const auto shared = std::make_shared<Shared>();
+  shared->call = call;
   std::thread([shared, work = std::move(work)]() mutable {
     try {
       shared->result.emplace(work());
     } catch (...) {
       shared->thrown = std::current_exception();
     }
-    shared->call.finish();
+    shared->call->finish();
   }).detach();
-  if (!shared->call.wait_or_signal()) throw pybind11::error_already_set();
+  call->wait();
+  call->rethrow();
   if (shared->thrown) std::rethrow_exception(shared->thrown);
   return std::move(*shared->result);
 }
 
-/// Runs short work on this thread without the interpreter's lock.
+/// Runs short work on this thread: one of its own takes some fifty microseconds, and no signal waits long.
 template <class Work>
 auto run_here(Work work) {
   const pybind11::gil_scoped_release released;
   return work();
+}
+
+/// One of both. Without a call, the work reports no progress and cannot be stopped.
+template <class Work>
+auto run_unless_short(bool is_short, const std::shared_ptr<Call>& call, Work work) {
+  if (!is_short) return run(call, std::move(work));
+  auto result = run_here(std::move(work));
+  call->rethrow();
+  return result;
 }
 
 }  // namespace medial_vk::python

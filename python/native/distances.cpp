@@ -17,21 +17,25 @@ namespace py = pybind11;
 constexpr std::size_t kFewPoses = 16;
 /// Poses whose bounds take some milliseconds.
 constexpr std::size_t kBlock = 4096;
+/// Poses whose verdicts do, where triangles decide.
+constexpr std::size_t kBlockOfTriangles = 128;
 
 std::shared_ptr<Body> body_of_mesh(const MeshHandle& mesh, py::handle inside_centres, py::handle inside_radii,
                                    py::handle cover_centres, py::handle cover_radii, unsigned threads) {
   const std::vector<Ball> inside = balls_of(inside_centres, inside_radii);
   const std::vector<Ball> cover = balls_of(cover_centres, cover_radii);
   const auto call = std::make_shared<Call>();
-  return std::make_shared<Body>(value_of(
-      run(call, [&] { return Body::create(mesh.mesh, inside, cover, {.threads = threads}, {}, call->token()); })));
+  return std::make_shared<Body>(value_of(run(call, [mesh = mesh.mesh, inside, cover, threads, call] {
+    return Body::create(mesh, inside, cover, {.threads = threads}, {}, call->token());
+  })));
 }
 
 std::shared_ptr<Body> body_of_balls(py::handle inside_centres, py::handle inside_radii, py::handle cover_centres,
                                     py::handle cover_radii) {
-  return std::make_shared<Body>(
-      value_of(run_or_abandon([inside = balls_of(inside_centres, inside_radii),
-                               cover = balls_of(cover_centres, cover_radii)] { return Body::create(inside, cover); })));
+  return std::make_shared<Body>(value_of(run(std::make_shared<Call>(), [inside = balls_of(inside_centres, inside_radii),
+                                                                        cover = balls_of(cover_centres, cover_radii)] {
+    return Body::create(inside, cover);
+  })));
 }
 
 py::tuple sizes(const Body& body) { return py::make_tuple(body.has_mesh(), body.inside().size(), body.cover().size()); }
@@ -70,29 +74,38 @@ py::dict bounds_of_one(const std::shared_ptr<Body>& a, const std::shared_ptr<Bod
   return out;
 }
 
-/// By bodies in a call of many poses: on a thread of its own, or here. The searches of bounds cannot be stopped; blocks
-/// of them are run one after the other, so that a signal waits for one block only.
-template <class Work>
-Status in_blocks(std::size_t count, std::size_t block, const Work& work) {
-  if (count <= kFewPoses) return run_here([&] { return work(std::size_t{0}, count); });
+/// Poses and the results of a call, which may end before its work does.
+template <class T>
+struct Batch {
+  explicit Batch(std::vector<Pose> of) : poses(std::move(of)), results(poses.size()) {}
+
+  std::vector<Pose> poses;
+  std::vector<T> results;
+};
+
+/// work(poses, results) for consecutive blocks, since searches by balls cannot be stopped; here, if there are few
+/// poses.
+template <class T, class Work>
+std::vector<T> in_blocks(std::vector<Pose> poses, std::size_t block, Work work) {
+  const auto batch = std::make_shared<Batch<T>>(std::move(poses));
   const auto call = std::make_shared<Call>();
-  return run(call, [&]() -> Status {
+  const std::size_t count = batch->poses.size();
+  require(run_unless_short(count <= kFewPoses, call, [call, batch, block, count, work]() -> Status {
     for (std::size_t begin = 0; begin < count; begin += block) {
       if (call->token().stop_requested()) return Error{ErrorCode::kInterrupted, "stopped"};
-      if (Status status = work(begin, std::min(block, count - begin)); !status) return status;
+      const std::size_t size = std::min(block, count - begin);
+      work(std::span<const Pose>(batch->poses).subspan(begin, size), std::span(batch->results).subspan(begin, size));
     }
     return {};
-  });
+  }));
+  return std::move(batch->results);
 }
 
 py::dict bounds(const std::shared_ptr<Body>& a, const std::shared_ptr<Body>& b, py::handle array, unsigned threads) {
-  const std::vector<Pose> poses = poses_of(array, "poses");
-  std::vector<DistanceBounds> results(poses.size());
-  require(in_blocks(poses.size(), kBlock, [&](std::size_t begin, std::size_t count) -> Status {
-    distance_bounds(*a, *b, std::span(poses).subspan(begin, count), std::span(results).subspan(begin, count),
-                    {.threads = threads});
-    return {};
-  }));
+  const std::vector<DistanceBounds> results = in_blocks<DistanceBounds>(
+      poses_of(array, "poses"), kBlock, [a, b, threads](std::span<const Pose> poses, std::span<DistanceBounds> found) {
+        distance_bounds(*a, *b, poses, found, {.threads = threads});
+      });
   py::dict out;
   out["lower"] = column(results, [](const DistanceBounds& result) { return result.lower; });
   out["upper"] = column(results, [](const DistanceBounds& result) { return result.upper; });
@@ -114,12 +127,14 @@ DistanceOptions distance_options(py::dict values, unsigned& threads) {
 }
 
 py::dict exact(const std::shared_ptr<Body>& a, const std::shared_ptr<Body>& b, py::handle array, py::dict values) {
-  const std::vector<Pose> poses = poses_of(array, "poses");
+  const auto batch = std::make_shared<Batch<Distance>>(poses_of(array, "poses"));
   unsigned threads = 0;
   const DistanceOptions options = distance_options(std::move(values), threads);
-  std::vector<Distance> results(poses.size());
   const auto call = std::make_shared<Call>();
-  require(run(call, [&] { return distances(*a, *b, poses, results, options, {.threads = threads}, call->token()); }));
+  require(run(call, [a, b, batch, options, threads, call] {
+    return distances(*a, *b, batch->poses, batch->results, options, {.threads = threads}, call->token());
+  }));
+  const std::vector<Distance>& results = batch->results;
   py::dict out;
   out["lower"] = column(results, [](const Distance& result) { return result.lower; });
   out["upper"] = column(results, [](const Distance& result) { return result.upper; });
@@ -150,21 +165,16 @@ py::dict exact_of_one(const std::shared_ptr<Body>& a, const std::shared_ptr<Body
 
 py::array_t<std::uint8_t> verdicts(const std::shared_ptr<Body>& a, const std::shared_ptr<Body>& b, py::handle array,
                                    bool by_balls, unsigned threads) {
-  const std::vector<Pose> poses = poses_of(array, "poses");
-  std::vector<Collision> results(poses.size());
-  require(in_blocks(poses.size(), kBlock, [&](std::size_t begin, std::size_t count) -> Status {
-    collide_by_balls(*a, *b, std::span(poses).subspan(begin, count), std::span(results).subspan(begin, count),
-                     {.threads = threads});
-    return {};
-  }));
-  if (!by_balls) {
-    require(in_blocks(poses.size(), 64, [&](std::size_t begin, std::size_t count) -> Status {
-      for (std::size_t i = begin; i < begin + count; ++i) {
-        if (results[i] == Collision::kUndecided) results[i] = collide(*a, *b, poses[i]);
-      }
-      return {};
-    }));
-  }
+  const std::size_t block = by_balls ? kBlock : kBlockOfTriangles;
+  const std::vector<Collision> results =
+      in_blocks<Collision>(poses_of(array, "poses"), block,
+                           [a, b, by_balls, threads](std::span<const Pose> poses, std::span<Collision> found) {
+                             collide_by_balls(*a, *b, poses, found, {.threads = threads});
+                             if (by_balls) return;
+                             for (std::size_t i = 0; i < poses.size(); ++i) {
+                               if (found[i] == Collision::kUndecided) found[i] = collide(*a, *b, poses[i]);
+                             }
+                           });
   return column(results, [](Collision verdict) { return static_cast<std::uint8_t>(verdict); });
 }
 
@@ -178,8 +188,8 @@ py::dict depth(const std::shared_ptr<Body>& a, const std::shared_ptr<Body>& b, p
   options.read("volume_tolerance", made.volume_tolerance);
   options.read("most_columns", made.most_columns);
   options.finish();
-  const Penetration result =
-      value_of(run_or_abandon([a, b, pose = poses[0], made] { return penetration(*a, *b, pose, made); }));
+  const Penetration result = value_of(
+      run(std::make_shared<Call>(), [a, b, pose = poses[0], made] { return penetration(*a, *b, pose, made); }));
   py::dict out;
   out["depth"] = py::make_tuple(result.depth_lower, result.depth_upper);
   out["translation"] = array_of(result.translation);
@@ -201,7 +211,8 @@ py::dict contact(const std::shared_ptr<Body>& a, const std::shared_ptr<Body>& b,
   options.read("surfaces_only", made.surfaces_only);
   options.finish();
   const auto call = std::make_shared<Call>();
-  const FirstContact result = value_of(run(call, [&] { return first_contact(*a, *b, motion, made, call->token()); }));
+  const FirstContact result =
+      value_of(run(call, [a, b, motion, made, call] { return first_contact(*a, *b, motion, made, call->token()); }));
   py::dict out;
   out["free_until"] = result.free_until;
   out["contact_at"] = result.contact_at;

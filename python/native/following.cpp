@@ -53,12 +53,12 @@ FollowerOptions follower_options(py::dict values) {
 
 std::shared_ptr<Inside> make_inside(const MeshHandle& rest, py::handle centres, py::handle radii, py::dict values) {
   const FollowerOptions options = follower_options(std::move(values));
-  return value_of(
-      run_or_abandon([rest, balls = balls_of(centres, radii), options]() -> Result<std::shared_ptr<Inside>> {
-        Result<Follower> made = Follower::create(rest.mesh, balls, options);
-        if (!made) return made.error();
-        return std::make_shared<Inside>(std::move(made).value());
-      }));
+  return value_of(run(std::make_shared<Call>(),
+                      [rest, balls = balls_of(centres, radii), options]() -> Result<std::shared_ptr<Inside>> {
+                        Result<Follower> made = Follower::create(rest.mesh, balls, options);
+                        if (!made) return made.error();
+                        return std::make_shared<Inside>(std::move(made).value());
+                      }));
 }
 
 std::shared_ptr<Cover> make_cover(const MeshHandle& rest, py::handle centres, py::handle radii, py::dict values) {
@@ -68,11 +68,12 @@ std::shared_ptr<Cover> make_cover(const MeshHandle& rest, py::handle centres, py
   options.read("steps", made.steps);
   options.read("threads", made.threads);
   options.finish();
-  return value_of(run_or_abandon([rest, balls = balls_of(centres, radii), made]() -> Result<std::shared_ptr<Cover>> {
-    Result<CoverFollower> follower = CoverFollower::create(rest.mesh, balls, made);
-    if (!follower) return follower.error();
-    return std::make_shared<Cover>(std::move(follower).value());
-  }));
+  return value_of(
+      run(std::make_shared<Call>(), [rest, balls = balls_of(centres, radii), made]() -> Result<std::shared_ptr<Cover>> {
+        Result<CoverFollower> follower = CoverFollower::create(rest.mesh, balls, made);
+        if (!follower) return follower.error();
+        return std::make_shared<Cover>(std::move(follower).value());
+      }));
 }
 
 /// The balls of a frame, copied while no other thread can go on to the next one.

@@ -13,8 +13,11 @@ namespace {
 
 namespace py = pybind11;
 
+/// Fewer points are queried on the calling thread.
+constexpr std::size_t kFewPoints = 32;
+
 MeshHandle indexed(Mesh mesh, const PrepareOptions& options) {
-  return value_of(run_or_abandon([mesh = std::move(mesh), options]() mutable -> Result<MeshHandle> {
+  return value_of(run(std::make_shared<Call>(), [mesh = std::move(mesh), options]() mutable -> Result<MeshHandle> {
     Result<PreparedMesh> prepared = prepare_mesh(std::move(mesh), options);
     if (!prepared) return prepared.error();
     Result<IndexedMesh> made = IndexedMesh::build(std::move(prepared).value(), {.threads = options.threads});
@@ -42,7 +45,7 @@ MeshHandle make_mesh(py::handle vertices, py::handle triangles, py::dict options
 
 MeshHandle read_file(const std::string& path, py::dict options) {
   const PrepareOptions prepare = prepare_options(std::move(options));
-  Mesh mesh = value_of(run_or_abandon([path] { return read_mesh(path); }));
+  Mesh mesh = value_of(run(std::make_shared<Call>(), [path] { return read_mesh(path); }));
   return indexed(std::move(mesh), prepare);
 }
 
@@ -105,39 +108,49 @@ MeshHandle moved(const MeshHandle& handle, py::handle vertices) {
   });
 }
 
-py::dict closest_points(const MeshHandle& handle, py::handle array) {
-  const std::vector<Point> points = points_of(array, "points");
-  std::vector<Point> nearest(points.size());
-  std::vector<double> distances(points.size());
-  std::vector<std::uint32_t> triangles(points.size());
-  const auto call = std::make_shared<Call>();
-  const Bvh& tree = handle.mesh.bvh();
-  require(run(call, [&]() -> Status {
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (call->token().stop_requested()) return Error{ErrorCode::kInterrupted, "stopped"};
-      if (!(std::abs(points[i][0]) + std::abs(points[i][1]) + std::abs(points[i][2]) <= 1e150)) {
-        return Error{ErrorCode::kUsage, "row " + std::to_string(i) + " of `points` is not finite, or beyond 1e150"};
-      }
-      const BvhHit hit = tree.closest(points[i]);
-      nearest[i] = hit.point;
-      distances[i] = std::sqrt(hit.squared_distance);
-      triangles[i] = hit.triangle;
+/// Beyond this size squares of coordinates could overflow.
+constexpr double kFarthest = 1e150;
+
+Result<std::vector<BvhHit>> find_closest(const Bvh& tree, const std::vector<Point>& points,
+                                         const std::stop_token& stop) {
+  std::vector<BvhHit> hits(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (stop.stop_requested()) return Error{ErrorCode::kInterrupted, "stopped"};
+    const Point& p = points[i];
+    if (!(std::abs(p[0]) + std::abs(p[1]) + std::abs(p[2]) <= kFarthest)) {
+      return Error{ErrorCode::kUsage, "row " + std::to_string(i) + " of `points` is not finite, or beyond 1e150"};
     }
-    return {};
-  }));
+    hits[i] = tree.closest(p);
+  }
+  return hits;
+}
+
+py::dict closest_points(const MeshHandle& handle, py::handle array) {
+  std::vector<Point> points = points_of(array, "points");
+  const bool is_short = points.size() <= kFewPoints;
+  const auto call = std::make_shared<Call>();
+  const std::vector<BvhHit> hits =
+      value_of(run_unless_short(is_short, call, [mesh = handle.mesh, points = std::move(points), call] {
+        return find_closest(mesh.bvh(), points, call->token());
+      }));
   py::dict out;
-  out["points"] = array_of(std::move(nearest));
-  out["distances"] = array_of(std::move(distances));
-  out["triangles"] = array_of(std::move(triangles));
+  out["points"] = column(hits, [](const BvhHit& hit) { return hit.point; });
+  out["distances"] = column(hits, [](const BvhHit& hit) { return std::sqrt(hit.squared_distance); });
+  out["triangles"] = column(hits, [](const BvhHit& hit) { return hit.triangle; });
   return out;
 }
 
 py::array_t<double> depths(const MeshHandle& handle, py::handle array, unsigned threads) {
-  const std::vector<Point> points = points_of(array, "points");
-  std::vector<double> out(points.size());
+  std::vector<Point> points = points_of(array, "points");
+  const bool is_short = points.size() <= kFewPoints;
   const auto call = std::make_shared<Call>();
-  require(run(call, [&] { return measure_depths(handle.mesh, points, out, {threads}, call->token()); }));
-  return array_of(std::move(out));
+  const auto work = [mesh = handle.mesh, points = std::move(points), threads, call]() -> Result<std::vector<double>> {
+    std::vector<double> depths(points.size());
+    Status status = measure_depths(mesh, points, depths, {.threads = threads}, call->token());
+    if (!status) return status.error();
+    return depths;
+  };
+  return array_of(value_of(run_unless_short(is_short, call, work)));
 }
 
 }  // namespace

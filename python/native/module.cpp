@@ -5,6 +5,7 @@
 #include <string>
 
 #include "medial_vk/version.h"
+#include "native/calls.h"
 #include "native/errors.h"
 #include "native/handles.h"
 
@@ -13,6 +14,7 @@ PYBIND11_MODULE(_native, module) {
   module.doc() = "Calls of the medial-vk library; use the package medial_vk.";
   module.attr("VERSION") = std::to_string(MEDIAL_VK_VERSION_MAJOR) + "." + std::to_string(MEDIAL_VK_VERSION_MINOR) +
                            "." + std::to_string(MEDIAL_VK_VERSION_PATCH);
+  module.def("wait_for_abandoned", &python::Call::wait_for_abandoned);
   python::register_errors();
   python::bind_context(module);
   python::bind_mesh(module);

@@ -122,10 +122,9 @@ py::dict fit_mesh(const MeshHandle& mesh, const ContextHandle& context, py::dict
   const SphereFitOptions options = fit_options(std::move(values));
   const auto call = std::make_shared<Call>();
   const StageProgress on_progress = stage_progress(call, progress);
-  const SphereFit fit = value_of(run(call, [&] {
-    return context->use(call->token(), [&](Context& device) {
-      return fit_spheres(mesh.mesh, options, device, on_progress, call->token());
-    });
+  const SphereFit fit = value_of(run(call, [mesh = mesh.mesh, context, options, on_progress, call] {
+    return context->use(
+        call->token(), [&](Context& device) { return fit_spheres(mesh, options, device, on_progress, call->token()); });
   }));
   return fit_dict(fit);
 }
@@ -135,8 +134,9 @@ py::dict prove(const MeshHandle& mesh, py::handle inside_centres, py::handle ins
   const std::vector<Ball> inside = balls_of(inside_centres, inside_radii);
   const std::vector<Ball> cover = balls_of(cover_centres, cover_radii);
   const auto call = std::make_shared<Call>();
-  const SphereProofs proofs =
-      value_of(run(call, [&] { return prove_spheres(mesh.mesh, inside, cover, {.threads = threads}, call->token()); }));
+  const SphereProofs proofs = value_of(run(call, [mesh = mesh.mesh, inside, cover, threads, call] {
+    return prove_spheres(mesh, inside, cover, {.threads = threads}, call->token());
+  }));
   py::dict out;
   out["inside"] = inside_dict(proofs.inside);
   out["cover"] = cover_dict(proofs.cover);
@@ -146,8 +146,9 @@ py::dict prove(const MeshHandle& mesh, py::handle inside_centres, py::handle ins
 py::tuple gap(const MeshHandle& mesh, py::handle centres, py::handle radii, unsigned threads) {
   const std::vector<Ball> balls = balls_of(centres, radii);
   const auto call = std::make_shared<Call>();
-  return bounds_tuple(
-      value_of(run(call, [&] { return measure_gap(mesh.mesh, balls, {.threads = threads}, call->token()); })));
+  return bounds_tuple(value_of(run(call, [mesh = mesh.mesh, balls, threads, call] {
+    return measure_gap(mesh, balls, {.threads = threads}, call->token());
+  })));
 }
 
 }  // namespace

@@ -27,7 +27,8 @@ py::dict complex_dict(const ComplexHandle& handle) {
 }
 
 py::tuple topology(const std::shared_ptr<ComplexHandle>& handle) {
-  const BettiNumbers betti = value_of(run_or_abandon([handle] { return betti_numbers(handle->complex); }));
+  const BettiNumbers betti =
+      value_of(run(std::make_shared<Call>(), [handle] { return betti_numbers(handle->complex); }));
   return py::make_tuple(betti.components, betti.tunnels, betti.cavities);
 }
 
@@ -36,11 +37,11 @@ constexpr std::size_t kFewBalls = 100;
 
 py::dict measure(py::handle centres, py::handle radii, bool with_complex, unsigned threads) {
   std::vector<Ball> balls = balls_of(centres, radii);
+  const bool is_short = balls.size() <= kFewBalls;
   const BallUnionOptions options = {.threads = threads, .complex = with_complex};
-  BallUnion made = value_of(balls.size() <= kFewBalls ? run_here([&] { return measure_ball_union(balls, options); })
-                                                      : run_or_abandon([balls = std::move(balls), options] {
-                                                          return measure_ball_union(balls, options);
-                                                        }));
+  BallUnion made = value_of(run_unless_short(is_short, std::make_shared<Call>(), [balls = std::move(balls), options] {
+    return measure_ball_union(balls, options);
+  }));
   py::dict out;
   out["volume"] = made.volume;
   out["area"] = made.area;
@@ -58,7 +59,7 @@ py::dict measure_on_device(py::handle centres, py::handle radii, const ContextHa
                            unsigned threads) {
   const std::vector<Ball> balls = balls_of(centres, radii);
   const auto call = std::make_shared<Call>();
-  DeviceBallUnion made = value_of(run(call, [&] {
+  DeviceBallUnion made = value_of(run(call, [balls, context, tolerance, threads, call] {
     return context->use(call->token(), [&](Context& device) {
       return measure_ball_union(balls, {.threads = threads, .tolerance = tolerance}, device);
     });

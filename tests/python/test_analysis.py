@@ -163,6 +163,10 @@ class Progress(unittest.TestCase):
 class Interruption(unittest.TestCase):
     """Ctrl-C arrives as a signal; a call that takes many times as long as the delay must end with KeyboardInterrupt."""
 
+    def setUp(self):
+        # A program that was started in the background may ignore the signal.
+        self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
+
     def interrupted(self, work, delay=0.3):
         timer = threading.Timer(delay, os.kill, (os.getpid(), signal.SIGINT))
         timer.start()
