@@ -11,6 +11,8 @@ from ._mesh import as_mesh
 from ._results import Result
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
@@ -101,6 +103,54 @@ class FirstContact(Result):
     distance: tuple[float, float]  #: At ``contact_at``, or at the last time that was tried.
     on_a: NDArray[np.float64]  #: The nearest points then, shape (3,).
     on_b: NDArray[np.float64]
+
+
+class NearBodies(Result):
+    """The bodies that may be among the k nearest, by upper ends of the intervals that hold their distances. At least k,
+    where there are as many within the limit: more, where intervals overlap, or where distances are the same."""
+
+    indices: NDArray[np.int64]  #: Of the bodies, shape (n,).
+    lower: NDArray[np.float64]  #: Shape (n,).
+    upper: NDArray[np.float64]  #: Shape (n,).
+    others: float  #: All other bodies are proved to be at least so far away; infinite: there are no others.
+
+
+class PlacedBodies:
+    """Bodies in the world, for queries of the nearest among many. It never changes.
+
+    Args:
+        bodies: n bodies; one body may stand in many places.
+        poses: Take their frames to that of the world, shape (n, 4, 4).
+    """
+
+    def __init__(self, bodies: Sequence[Body], poses: ArrayLike) -> None:
+        self._native = _native.place_bodies([body._native for body in bodies], poses)
+
+    def __len__(self) -> int:
+        return self._native.size()
+
+    def nearest(
+        self,
+        body: Body,
+        pose: ArrayLike,
+        count: int = 1,
+        *,
+        limit: float = math.inf,
+        by_triangles: bool = True,
+        tolerance: float = 0.0,
+    ) -> NearBodies:
+        """The bodies that are nearest to ``body``.
+
+        Args:
+            body: Any body.
+            pose: Takes its frame to that of the world, shape (4, 4).
+            count: k, at least 1.
+            limit: Bodies that are proved to be farther away are left out.
+            by_triangles: Distances of bodies with meshes are those of their triangles; otherwise those of balls.
+            tolerance: Greatest width of an interval by triangles, in units of the meshes.
+        """
+        options = {"count": count, "limit": limit, "by_triangles": by_triangles, "tolerance": tolerance}
+        return NearBodies(**self._native.nearest(body._native, _as_many(pose)[0], options))
 
 
 def distance_bounds(a: Body, b: Body, poses: ArrayLike, *, threads: int = 0) -> DistanceBounds:

@@ -1,6 +1,7 @@
 #include <pybind11/stl.h>
 
 #include "medial_vk/collisions.h"
+#include "medial_vk/nearest_bodies.h"
 #include "medial_vk/penetration.h"
 #include "medial_vk/proximity.h"
 #include "native/arrays.h"
@@ -223,10 +224,47 @@ py::dict contact(const std::shared_ptr<Body>& a, const std::shared_ptr<Body>& b,
   return out;
 }
 
+std::shared_ptr<PlacedBodies> place(const std::vector<std::shared_ptr<Body>>& bodies, py::handle array) {
+  const std::vector<Pose> poses = poses_of(array, "poses");
+  if (poses.size() != bodies.size()) fail_usage("there are not as many `poses` as `bodies`");
+  std::vector<PlacedBody> placed;
+  placed.reserve(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i] == nullptr) fail_usage("one of `bodies` is None");
+    placed.push_back({*bodies[i], poses[i]});
+  }
+  return std::make_shared<PlacedBodies>(value_of(run_unless_short(placed.size() <= kFewPoses, std::make_shared<Call>(),
+                                                                  [placed] { return PlacedBodies::create(placed); })));
+}
+
+py::dict nearest(const std::shared_ptr<PlacedBodies>& among, const std::shared_ptr<Body>& body, py::handle array,
+                 py::dict values) {
+  const Pose pose = only_pose(array);
+  NearestBodiesOptions made;
+  Options options(std::move(values));
+  options.read("count", made.count);
+  options.read("limit", made.limit);
+  options.read("by_triangles", made.by_triangles);
+  options.read("tolerance", made.tolerance);
+  options.finish();
+  const NearBodies found = value_of(
+      run(std::make_shared<Call>(), [among, body, pose, made] { return nearest_bodies(*among, *body, pose, made); }));
+  py::dict out;
+  out["indices"] = column(found.bodies, [](const NearBody& near) { return static_cast<std::int64_t>(near.index); });
+  out["lower"] = column(found.bodies, [](const NearBody& near) { return near.lower; });
+  out["upper"] = column(found.bodies, [](const NearBody& near) { return near.upper; });
+  out["others"] = found.others;
+  return out;
+}
+
 }  // namespace
 
 void bind_distances(py::module_& module) {
   py::class_<Body, std::shared_ptr<Body>>(module, "Body").def("sizes", &sizes);
+  py::class_<PlacedBodies, std::shared_ptr<PlacedBodies>>(module, "PlacedBodies")
+      .def("size", &PlacedBodies::size)
+      .def("nearest", &nearest);
+  module.def("place_bodies", &place);
   module.def("body_of_mesh", &body_of_mesh);
   module.def("body_of_balls", &body_of_balls);
   module.def("distance_bounds", &bounds);

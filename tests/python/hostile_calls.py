@@ -173,6 +173,7 @@ class Hostile:
             lambda: mv.penetration(a, b, poses, directions=self.number(8), most_queries=self.number(20), volume_tolerance=1.0),
             lambda: mv.first_contact(a, b, poses, poses, tolerance=self.one_of(1e-2, 0, math.nan), pivot=self.array(3)),
             lambda: mv.rigid_pose(poses),
+            lambda: mv.PlacedBodies([a, b], poses).nearest(a, poses, self.number(1), limit=self.number(math.inf)),
         )()
 
     def follow(self):

@@ -110,6 +110,17 @@ class Distances(unittest.TestCase):
         self.assertLessEqual(contact.free_until, 2 / 3)
         self.assertGreaterEqual(contact.contact_at, 2 / 3 - 1e-6)
 
+    def test_nearest_of_many(self):
+        poses = np.stack([shapes.pose((4.0 * i, 0, 0)) for i in range(8)])
+        placed = mv.PlacedBodies([self.body] * 8, poses)
+        self.assertEqual(len(placed), 8)
+        near = placed.nearest(self.body, shapes.pose((9.0, 0, 0)), 2)
+        self.assertEqual(near.indices[:2].tolist(), [2, 3])
+        self.assertTrue(near.lower[0] <= 0 <= near.upper[0] and near.lower[1] <= 2 <= near.upper[1])
+        self.assertGreaterEqual(near.others, near.upper[1])
+        with self.assertRaisesRegex(mv.errors.UsageError, "poses"):
+            mv.PlacedBodies([self.body], poses)
+
     def test_poses_that_are_none(self):
         scaled = shapes.pose()
         scaled[0, 0] = 2
