@@ -29,6 +29,7 @@ NOT_RUN = {
     r"scripts/(run$|run MESH|test|fuzz|soak|lint)|\.ci/run": "installs packages and builds, or runs for hours; .ci/run calls scripts/test",
     r"build/release/bin/test_": "is a program of tests that ctest runs, too",
     r"scripts/install-dependencies": "installs packages",
+    r"scripts/build-deb": "builds packages for many minutes; package.debian runs it",
     r"bench/|build/release/bin/bench_": "needs libraries, models or hours that the tests do not have",
     r"cmake ": "has configured and built this test; package.consumer installs",
     r"ctest ": "runs this test",
