@@ -67,12 +67,16 @@ AnalysisOptions analysis_options(py::dict values) {
 std::shared_ptr<AnalysisHandle> analyse_mesh(const MeshHandle& mesh, const ContextHandle& context, py::dict values,
                                              const py::object& progress) {
   const AnalysisOptions options = analysis_options(std::move(values));
-  const auto call = std::make_shared<Call>();
-  const StageProgress on_progress = stage_progress(call, progress);
-  Analysis result = value_of(run(call, [mesh = mesh.mesh, context, options, on_progress, call] {
-    return context->use(call->token(),
-                        [&](Context& device) { return analyse(mesh, options, device, on_progress, call->token()); });
-  }));
+  const CallWithProgress reported(progress);
+  const StageProgress on_progress = reported.stages();
+  const auto call = reported.call;
+  Analysis result = value_of(run(
+      call,
+      [mesh = mesh.mesh, context, options, on_progress, call] {
+        return context->use(
+            call->token(), [&](Context& device) { return analyse(mesh, options, device, on_progress, call->token()); });
+      },
+      progress));
   return std::make_shared<AnalysisHandle>(AnalysisHandle{mesh.mesh, options, context->device(), std::move(result)});
 }
 
@@ -129,6 +133,8 @@ py::dict betti_dict(const BettiNumbers& betti) {
   return out;
 }
 
+std::uint8_t marked(std::uint8_t marks, PointMark mark) { return (marks & mark) != 0 ? 1 : 0; }
+
 py::object sheets_dict(const std::optional<Sheets>& sheets) {
   if (!sheets) return py::none();
   const double none = std::numeric_limits<double>::quiet_NaN();
@@ -139,10 +145,12 @@ py::object sheets_dict(const std::optional<Sheets>& sheets) {
   out["mean_object_angles"] = column(sheets->sheets, [](const Sheet& sheet) { return sheet.mean_object_angle; });
   out["significance"] =
       column(sheets->sheets, [none](const Sheet& sheet) { return sheet.significance.value_or(none); });
-  out["is_seam"] = column(sheets->marks,
-                          [](std::uint8_t marks) { return (marks & kSeam) != 0 ? std::uint8_t{1} : std::uint8_t{0}; });
-  out["is_rim"] =
-      column(sheets->marks, [](std::uint8_t marks) { return (marks & kRim) != 0 ? std::uint8_t{1} : std::uint8_t{0}; });
+  out["is_seam"] = column(sheets->marks, [](std::uint8_t marks) { return marked(marks, kSeam); });
+  out["is_small"] = column(sheets->marks, [](std::uint8_t marks) { return marked(marks, kSmall); });
+  out["point_areas"] = array_of(std::vector<double>(sheets->areas));
+  out["absorbed_points"] = sheets->absorbed_points;
+  out["fragments"] = sheets->fragments;
+  out["is_rim"] = column(sheets->marks, [](std::uint8_t marks) { return marked(marks, kRim); });
   return out;
 }
 
@@ -152,6 +160,7 @@ py::object significance_dict(const std::optional<Significance>& significance) {
   out["volume"] = significance->volume;
   out["area"] = significance->area;
   out["topology"] = betti_dict(significance->topology);
+  out["of_component"] = array_of(std::vector<double>(significance->of_component));
   out["of_ball"] = array_of(std::vector<double>(significance->of_ball));
   out["of_sheet"] = array_of(std::vector<double>(significance->of_sheet));
   out["areas"] = array_of(std::vector<double>(significance->areas));
@@ -174,6 +183,10 @@ py::object medial_mesh_dict(const std::optional<MedialMesh>& mesh) {
   out["edges"] = array_of(std::vector<MeshEdge>(mesh->edges));
   out["topology"] = betti_dict(mesh->topology.betti);
   out["euler_characteristic"] = mesh->topology.euler_characteristic;
+  out["boundary_edges"] = mesh->topology.boundary_edges;
+  out["non_manifold_edges"] = mesh->topology.non_manifold_edges;
+  out["bare_edges"] = mesh->topology.bare_edges;
+  out["hosted_points"] = mesh->topology.hosted_points;
   return out;
 }
 
@@ -203,12 +216,11 @@ MedialHeader header_of(const AnalysisHandle& handle) {
   return make_header(handle.result.grid, handle.options.extraction, handle.mesh.longest_side());
 }
 
-py::bytes encode(const AnalysisHandle& handle, const std::string& format, bool ascii) {
-  const std::string bytes = run_here([&] {
-    return format == "csv" ? encode_csv(header_of(handle), handle.result.spheres)
-                           : encode_ply(header_of(handle), handle.result.spheres, ascii);
-  });
-  return py::bytes(bytes);
+py::bytes encode(const std::shared_ptr<AnalysisHandle>& handle, const std::string& format, bool ascii) {
+  return py::bytes(value_of(run([handle, format, ascii]() -> Result<std::string> {
+    const std::vector<MedialSphere>& spheres = handle->result.spheres;
+    return format == "csv" ? encode_csv(header_of(*handle), spheres) : encode_ply(header_of(*handle), spheres, ascii);
+  })));
 }
 
 RunRecord record_of(const AnalysisHandle& handle, const std::string& name) {
@@ -237,20 +249,29 @@ RunRecord record_of(const AnalysisHandle& handle, const std::string& name) {
   if (handle.options.sheets) record.sheet_options = *handle.options.sheets;
   if (result.sheets) record.sheets = *result.sheets;
   if (record.search.inside && result.sheets) record.search.inside_sheets = result.sheets->sheets.size();
+  record.by_significance = result.by_significance;
+  record.keeping_topology = result.keeping_topology;
   record.removal = result.removal;
+  record.keep_topology = handle.options.keep_volume > 0 && handle.options.keep_topology;
+  if (result.medial_mesh) record.medial_mesh = result.medial_mesh->topology;
+  record.euler_characteristic = result.euler_characteristic;
   record.keep_volume = handle.options.keep_volume;
   record.device = handle.device;
   return record;
 }
 
-py::bytes page(const AnalysisHandle& handle, const std::string& name, const std::string& up) {
+py::bytes page(const std::shared_ptr<AnalysisHandle>& handle, const std::string& name, py::dict values) {
   require(check_page_available());
-  UpAxis axis = UpAxis::kY;
-  if (up == "z") axis = UpAxis::kZ;
-  if (up == "x") axis = UpAxis::kX;
-  const std::string bytes = run_here(
-      [&] { return encode_page(handle.mesh.prepared().mesh, handle.result.spheres, record_of(handle, name), axis); });
-  return py::bytes(bytes);
+  UpAxis up = UpAxis::kY;
+  Options options(std::move(values));
+  options.read("up", up,
+               std::array{Choice<UpAxis>{"x", UpAxis::kX}, Choice<UpAxis>{"y", UpAxis::kY},
+                          Choice<UpAxis>{"z", UpAxis::kZ}, Choice<UpAxis>{"-x", UpAxis::kMinusX},
+                          Choice<UpAxis>{"-y", UpAxis::kMinusY}, Choice<UpAxis>{"-z", UpAxis::kMinusZ}});
+  options.finish();
+  return py::bytes(value_of(run([handle, name, up]() -> Result<std::string> {
+    return encode_page(handle->mesh.prepared().mesh, handle->result.spheres, record_of(*handle, name), up);
+  })));
 }
 
 }  // namespace

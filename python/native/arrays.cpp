@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
+#include <new>
 
 #include "native/errors.h"
 
@@ -13,15 +14,17 @@ namespace {
 
 namespace py = pybind11;
 
-/// The object as an array. Lists and whatever else NumPy converts are accepted; NumPy's own error is the answer where
-/// it does not.
+/// The object as an array: lists and whatever else NumPy converts. Exceptions of the object itself arrive as they are.
 py::array as_array(py::handle object, const char* name) {
-  py::array array = py::array::ensure(object);
-  if (!array) {
-    PyErr_Clear();
-    fail_usage(fmt::format("`{}` is no array of numbers", name));
+  const auto& numpy = py::detail::npy_api::get();
+  PyObject* const made =
+      numpy.PyArray_FromAny_(object.ptr(), nullptr, 0, 0, py::detail::npy_api::NPY_ARRAY_ENSUREARRAY_, nullptr);
+  if (made != nullptr) return py::reinterpret_steal<py::array>(made);
+  if (PyErr_ExceptionMatches(PyExc_TypeError) == 0 && PyErr_ExceptionMatches(PyExc_ValueError) == 0) {
+    throw py::error_already_set();
   }
-  return array;
+  PyErr_Clear();
+  fail_usage(fmt::format("`{}` is no array of numbers", name));
 }
 
 std::string shape_text(const py::array& array) {
@@ -62,7 +65,7 @@ py::array as_doubles(const py::array& array, const char* name) {
     fail_usage(fmt::format("`{}` has the type {}, not one of real numbers", name, std::string(py::str(array.dtype()))));
   }
   py::array doubles = py::array_t<double>::ensure(array);
-  if (!doubles) throw py::error_already_set();
+  if (!doubles) throw std::bad_alloc();  // all of these types convert
   return doubles;
 }
 
@@ -77,12 +80,17 @@ constexpr double kRotationTolerance = 1e-12;  // of the library's precondition (
 
 /// The greatest difference of products of rows from those of a rotation, and of the determinant from 1.
 double distance_from_rotation(const std::array<Point, 3>& rows) {
+  for (const Point& row : rows) {
+    for (const double x : row) {
+      if (!std::isfinite(x)) return std::numeric_limits<double>::infinity();
+    }
+  }
   double greatest = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = i; j < 3; ++j) {
       const double product = rows[i][0] * rows[j][0] + rows[i][1] * rows[j][1] + rows[i][2] * rows[j][2];
       const double difference = std::abs(product - (i == j ? 1 : 0));
-      if (!(difference <= greatest)) greatest = difference;  // keeps one that is no number
+      greatest = std::max(greatest, difference);
     }
   }
   const double determinant = rows[0][0] * (rows[1][1] * rows[2][2] - rows[1][2] * rows[2][1]) -
@@ -150,7 +158,7 @@ std::vector<Triangle> triangles_of(py::handle object, const char* name) {
     read_rows<std::uint64_t>(array, triangles, index);
   } else if (array.dtype().kind() == 'i' || array.dtype().kind() == 'u' || array.size() == 0) {
     const py::array wide = py::array_t<std::int64_t>::ensure(array);
-    if (!wide) throw py::error_already_set();
+    if (!wide) throw std::bad_alloc();
     read_rows<std::int64_t>(wide, triangles, index);
   } else {
     fail_usage(fmt::format("`{}` has the type {}, not one of integers", name, std::string(py::str(array.dtype()))));

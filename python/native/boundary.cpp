@@ -49,12 +49,15 @@ py::dict thickness(const MeshHandle& mesh, py::handle array, py::dict values, co
   std::vector<Point> points = points_of(array, "points");
   const bool is_short = points.size() <= kFewTips;
   const ThicknessOptions options = thickness_options(std::move(values));
-  const auto call = std::make_shared<Call>();
-  const ProgressCallback on_progress = progress_of_stage(call, progress, "thickness");
-  const std::vector<Thickness> measured = value_of(
-      run_unless_short(is_short, call, [mesh = mesh.mesh, points = std::move(points), options, on_progress, call] {
+  const CallWithProgress reported(progress);
+  const ProgressCallback on_progress = reported.of_stage("thickness");
+  const auto call = reported.call;
+  const std::vector<Thickness> measured = value_of(run_unless_short(
+      is_short, call,
+      [mesh = mesh.mesh, points = std::move(points), options, on_progress, call] {
         return measure_thickness(mesh, points, options, on_progress, call->token());
-      }));
+      },
+      progress));
   py::dict out;
   out["lower"] = column(measured, [](const Thickness& at) { return at.diameter.lower; });
   out["upper"] = column(measured, [](const Thickness& at) { return at.diameter.upper; });
@@ -77,11 +80,15 @@ py::dict least_wall(const MeshHandle& mesh, py::dict values, const py::object& p
   options.read("cells", made.cells);
   options.read("threads", made.threads);
   options.finish();
-  const auto call = std::make_shared<Call>();
-  const ProgressCallback on_progress = progress_of_stage(call, progress, "least wall");
-  const LeastWall found = value_of(run(call, [mesh = mesh.mesh, made, on_progress, call] {
-    return measure_least_wall(mesh, made, on_progress, call->token());
-  }));
+  const CallWithProgress reported(progress);
+  const ProgressCallback on_progress = reported.of_stage("least wall");
+  const auto call = reported.call;
+  const LeastWall found = value_of(run(
+      call,
+      [mesh = mesh.mesh, made, on_progress, call] {
+        return measure_least_wall(mesh, made, on_progress, call->token());
+      },
+      progress));
   py::dict out;
   out["lower"] = found.diameter.lower;
   out["upper"] = found.diameter.upper;
@@ -132,11 +139,15 @@ std::shared_ptr<CurvatureHandle> curvature(py::handle centres, py::handle radii,
   const bool is_short = made->balls.size() <= kFewTips;
   const std::vector<SpokePair> spokes = spokes_of(spokes_a, spokes_b);
   const CurvatureOptions options = curvature_options(std::move(values));
-  const auto call = std::make_shared<Call>();
-  const StageProgress on_progress = stage_progress(call, progress);
-  made->curvature = value_of(run_unless_short(is_short, call, [made, spokes, options, on_progress, call] {
-    return measure_curvature(made->balls, options, spokes, on_progress, call->token());
-  }));
+  const CallWithProgress reported(progress);
+  const StageProgress on_progress = reported.stages();
+  const auto call = reported.call;
+  made->curvature = value_of(run_unless_short(
+      is_short, call,
+      [made, spokes, options, on_progress, call] {
+        return measure_curvature(made->balls, options, spokes, on_progress, call->token());
+      },
+      progress));
   return made;
 }
 
@@ -152,6 +163,8 @@ py::dict tips(const CurvatureHandle& handle, std::size_t tip) {
   out["directions_1"] = of([](const TipCurvature& at) { return at.directions[0]; });
   out["directions_2"] = of([](const TipCurvature& at) { return at.directions[1]; });
   out["errors"] = of([](const TipCurvature& at) { return at.error; });
+  out["normal_errors"] = of([](const TipCurvature& at) { return at.normal_error; });
+  out["windows"] = of([](const TipCurvature& at) { return at.window; });
   return out;
 }
 
@@ -160,16 +173,20 @@ py::dict at_vertices(const std::shared_ptr<CurvatureHandle>& handle, const MeshH
   VertexCurvatureOptions made;
   Options options(std::move(values));
   options.read("assignment", made.assignment,
-               std::array{std::pair{std::string_view("along surface"), CurvatureAssignment::kAlongSurface},
+               std::array{std::pair{std::string_view("along_surface"), CurvatureAssignment::kAlongSurface},
                           std::pair{std::string_view("voronoi"), CurvatureAssignment::kVoronoi}});
   options.read("object_angle", made.object_angle);
   options.read("threads", made.threads);
   options.finish();
-  const auto call = std::make_shared<Call>();
-  const StageProgress on_progress = stage_progress(call, progress);
-  const std::vector<VertexCurvature> measured = value_of(run(call, [mesh = mesh.mesh, handle, made, on_progress, call] {
-    return curvature_at_vertices(mesh, handle->balls, handle->curvature, made, on_progress, call->token());
-  }));
+  const CallWithProgress reported(progress);
+  const StageProgress on_progress = reported.stages();
+  const auto call = reported.call;
+  const std::vector<VertexCurvature> measured = value_of(run(
+      call,
+      [mesh = mesh.mesh, handle, made, on_progress, call] {
+        return curvature_at_vertices(mesh, handle->balls, handle->curvature, made, on_progress, call->token());
+      },
+      progress));
   py::dict out;
   out["states"] = column(measured, [](const VertexCurvature& at) { return static_cast<std::uint8_t>(at.state); });
   out["normals"] = column(measured, [](const VertexCurvature& at) { return at.normal; });

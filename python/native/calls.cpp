@@ -1,6 +1,7 @@
 #include "native/calls.h"
 
 #include <chrono>
+#include <cstring>
 
 namespace medial_vk::python {
 namespace {
@@ -36,24 +37,12 @@ Call::~Call() {
   if (is_counted_) abandoned().add(-1);
 }
 
-bool Call::ended_within(int milliseconds) {
-  const py::gil_scoped_release released;
-  std::unique_lock lock(mutex_);
-  return condition_.wait_for(lock, std::chrono::milliseconds(milliseconds), [this] { return has_ended_; });
-}
-
-void Call::wait() {
-  while (!ended_within(kMillisecondsBetweenSignals)) {
-    if (PyErr_CheckSignals() == 0) continue;
-    const py::error_already_set error;
-    stop_.request_stop();
-    is_abandoned_ = true;
-    raised_.reset();
-    if (is_stoppable_ && !ended_within(kMillisecondsToStop)) {
-      is_counted_ = true;
-      abandoned().add(1);
-    }
-    throw py::error_already_set(error);
+void Call::report(const char* stage, double done) {
+  const std::lock_guard lock(mutex_);
+  if (!reports_.empty() && std::strcmp(reports_.back().stage, stage) == 0) {
+    reports_.back().done = done;
+  } else {
+    reports_.push_back({stage, done});
   }
 }
 
@@ -63,43 +52,64 @@ void Call::finish() {
   condition_.notify_all();
 }
 
-void Call::report(py::handle callback, const char* stage, double done) {
-  if (stop_.stop_requested()) return;
-  const py::gil_scoped_acquire locked;
-  if (is_abandoned_) return;  // the callback may be gone
-  try {
-    callback(stage, done);
-  } catch (py::error_already_set& error) {
-    if (!raised_) raised_.emplace(error);
-    stop_.request_stop();
+bool Call::ended_within(int milliseconds) {
+  return run_here([&] {
+    std::unique_lock lock(mutex_);
+    return condition_.wait_for(lock, std::chrono::milliseconds(milliseconds), [this] { return has_ended_; });
+  });
+}
+
+void Call::pass_on(const py::object& progress) {
+  std::vector<Progress> reports;
+  {
+    const std::lock_guard lock(mutex_);
+    reports.swap(reports_);
+  }
+  if (progress.is_none()) return;
+  for (const Progress& report : reports) progress(report.stage, report.done);
+}
+
+void Call::abandon() {
+  stop_.request_stop();
+  if (is_stoppable_ && !ended_within(kMillisecondsToStop)) {
+    is_counted_ = true;
+    abandoned().add(1);
   }
 }
 
-void Call::rethrow() {
-  if (!raised_) return;
-  const py::error_already_set error = std::move(*raised_);
-  raised_.reset();
-  throw py::error_already_set(error);
+void Call::wait(const py::object& progress) {
+  try {
+    while (!ended_within(kMillisecondsBetweenSignals)) {
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      pass_on(progress);
+    }
+    pass_on(progress);
+  } catch (const py::error_already_set&) {
+    abandon();
+    throw;
+  }
 }
 
 void Call::wait_for_abandoned() {
-  const py::gil_scoped_release released;
-  Abandoned& all = abandoned();
-  std::unique_lock lock(all.mutex);
-  all.condition.wait_for(lock, std::chrono::seconds(2), [&all] { return all.count == 0; });
+  run_here([] {
+    Abandoned& all = abandoned();
+    std::unique_lock lock(all.mutex);
+    return all.condition.wait_for(lock, std::chrono::seconds(2), [&all] { return all.count == 0; });
+  });
 }
 
-StageProgress stage_progress(const std::shared_ptr<Call>& call, const py::object& callback) {
-  if (callback.is_none()) return {};
-  if (PyCallable_Check(callback.ptr()) == 0) fail_usage("`progress` is not callable");
-  const py::handle function = callback;
-  return [call, function](const char* stage, double done) { call->report(function, stage, done); };
+CallWithProgress::CallWithProgress(py::object function) : progress(std::move(function)) {
+  if (!progress.is_none() && PyCallable_Check(progress.ptr()) == 0) fail_usage("`progress` is not callable");
 }
 
-ProgressCallback progress_of_stage(const std::shared_ptr<Call>& call, const py::object& callback, const char* stage) {
-  const StageProgress progress = stage_progress(call, callback);
-  if (!progress) return {};
-  return [progress, stage](double done) { progress(stage, done); };
+StageProgress CallWithProgress::stages() const {
+  if (progress.is_none()) return {};
+  return [to = call](const char* stage, double done) { to->report(stage, done); };
+}
+
+ProgressCallback CallWithProgress::of_stage(const char* stage) const {
+  if (progress.is_none()) return {};
+  return [to = call, stage](double done) { to->report(stage, done); };
 }
 
 }  // namespace medial_vk::python

@@ -29,11 +29,15 @@ ContextHandle open_context(py::dict values) {
   options.read("validation", made.validation);
   options.read("cache_folder", made.cache_folder);
   options.finish();
-  return run_here([&] { return std::make_shared<SharedContext>(value_of(Context::create(made))); });
+  return value_of(run([made]() -> Result<ContextHandle> {
+    Result<Context> context = Context::create(made);
+    if (!context) return context.error();
+    return std::make_shared<SharedContext>(std::move(context).value());
+  }));
 }
 
 py::list list_devices() {
-  const std::vector<DeviceDescription> devices = run_here([] { return value_of(Context::list_devices()); });
+  const std::vector<DeviceDescription> devices = value_of(run([] { return Context::list_devices(); }));
   py::list out;
   for (const DeviceDescription& device : devices) out.append(device_dict(device));
   return out;

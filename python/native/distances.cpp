@@ -1,5 +1,8 @@
 #include <pybind11/stl.h>
 
+#include <atomic>
+#include <thread>
+
 #include "medial_vk/collisions.h"
 #include "medial_vk/nearest_bodies.h"
 #include "medial_vk/penetration.h"
@@ -33,10 +36,17 @@ std::shared_ptr<Body> body_of_mesh(const MeshHandle& mesh, py::handle inside_cen
 
 std::shared_ptr<Body> body_of_balls(py::handle inside_centres, py::handle inside_radii, py::handle cover_centres,
                                     py::handle cover_radii) {
-  return std::make_shared<Body>(value_of(run(std::make_shared<Call>(), [inside = balls_of(inside_centres, inside_radii),
-                                                                        cover = balls_of(cover_centres, cover_radii)] {
-    return Body::create(inside, cover);
-  })));
+  return std::make_shared<Body>(
+      value_of(run([inside = balls_of(inside_centres, inside_radii), cover = balls_of(cover_centres, cover_radii)] {
+        return Body::create(inside, cover);
+      })));
+}
+
+py::dict balls_dict(std::span<const Ball> balls) {
+  py::dict out;
+  out["centres"] = column(balls, [](const Ball& ball) { return ball.centre; });
+  out["radii"] = column(balls, [](const Ball& ball) { return ball.radius; });
+  return out;
 }
 
 py::tuple sizes(const Body& body) { return py::make_tuple(body.has_mesh(), body.inside().size(), body.cover().size()); }
@@ -164,6 +174,22 @@ py::dict exact_of_one(const std::shared_ptr<Body>& a, const std::shared_ptr<Body
   return out;
 }
 
+/// Where balls have not decided: one pose after the other on each of the threads.
+void decide_by_triangles(const Body& a, const Body& b, std::span<const Pose> poses, std::span<Collision> found,
+                         unsigned threads) {
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < poses.size(); i = next++) {
+      if (found[i] == Collision::kUndecided) found[i] = collide(a, b, poses[i]);
+    }
+  };
+  const auto undecided = static_cast<std::size_t>(std::ranges::count(found, Collision::kUndecided));
+  const std::size_t most = threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
+  std::vector<std::jthread> others;
+  for (std::size_t i = 1; i < std::min(most, undecided); ++i) others.emplace_back(work);
+  work();
+}
+
 py::array_t<std::uint8_t> verdicts(const std::shared_ptr<Body>& a, const std::shared_ptr<Body>& b, py::handle array,
                                    bool by_balls, unsigned threads) {
   const std::size_t block = by_balls ? kBlock : kBlockOfTriangles;
@@ -171,10 +197,7 @@ py::array_t<std::uint8_t> verdicts(const std::shared_ptr<Body>& a, const std::sh
       in_blocks<Collision>(poses_of(array, "poses"), block,
                            [a, b, by_balls, threads](std::span<const Pose> poses, std::span<Collision> found) {
                              collide_by_balls(*a, *b, poses, found, {.threads = threads});
-                             if (by_balls) return;
-                             for (std::size_t i = 0; i < poses.size(); ++i) {
-                               if (found[i] == Collision::kUndecided) found[i] = collide(*a, *b, poses[i]);
-                             }
+                             if (!by_balls) decide_by_triangles(*a, *b, poses, found, threads);
                            });
   return column(results, [](Collision verdict) { return static_cast<std::uint8_t>(verdict); });
 }
@@ -189,8 +212,7 @@ py::dict depth(const std::shared_ptr<Body>& a, const std::shared_ptr<Body>& b, p
   options.read("volume_tolerance", made.volume_tolerance);
   options.read("most_columns", made.most_columns);
   options.finish();
-  const Penetration result = value_of(
-      run(std::make_shared<Call>(), [a, b, pose = poses[0], made] { return penetration(*a, *b, pose, made); }));
+  const Penetration result = value_of(run([a, b, pose = poses[0], made] { return penetration(*a, *b, pose, made); }));
   py::dict out;
   out["depth"] = py::make_tuple(result.depth_lower, result.depth_upper);
   out["translation"] = array_of(result.translation);
@@ -247,8 +269,8 @@ py::dict nearest(const std::shared_ptr<PlacedBodies>& among, const std::shared_p
   options.read("by_triangles", made.by_triangles);
   options.read("tolerance", made.tolerance);
   options.finish();
-  const NearBodies found = value_of(
-      run(std::make_shared<Call>(), [among, body, pose, made] { return nearest_bodies(*among, *body, pose, made); }));
+  const NearBodies found =
+      value_of(run([among, body, pose, made] { return nearest_bodies(*among, *body, pose, made); }));
   py::dict out;
   out["indices"] = column(found.bodies, [](const NearBody& near) { return static_cast<std::int64_t>(near.index); });
   out["lower"] = column(found.bodies, [](const NearBody& near) { return near.lower; });
@@ -260,7 +282,10 @@ py::dict nearest(const std::shared_ptr<PlacedBodies>& among, const std::shared_p
 }  // namespace
 
 void bind_distances(py::module_& module) {
-  py::class_<Body, std::shared_ptr<Body>>(module, "Body").def("sizes", &sizes);
+  py::class_<Body, std::shared_ptr<Body>>(module, "Body")
+      .def("sizes", &sizes)
+      .def("inside", [](const Body& body) { return balls_dict(body.inside()); })
+      .def("cover", [](const Body& body) { return balls_dict(body.cover()); });
   py::class_<PlacedBodies, std::shared_ptr<PlacedBodies>>(module, "PlacedBodies")
       .def("size", &PlacedBodies::size)
       .def("nearest", &nearest);

@@ -1,4 +1,5 @@
 #include <pybind11/stl.h>
+#include <unistd.h>
 
 #include <mutex>
 
@@ -14,22 +15,39 @@ namespace {
 
 namespace py = pybind11;
 
-/// A follower for threads of Python, one at a time. The lock is taken without the interpreter's.
+/// A follower for threads of Python, one at a time. Its worker threads are missing in a process that was forked off,
+/// where it is left as it is.
 template <class F>
-struct SharedFollower {
-  explicit SharedFollower(F of) : follower(std::move(of)) {}
-
-  template <class Work>
-  auto use(Work work) {
-    return run_here([&] {
-      const std::lock_guard lock(mutex);
-      return work(follower);
-    });
+class SharedFollower {
+ public:
+  explicit SharedFollower(F of) : follower_(std::make_unique<F>(std::move(of))) {}
+  SharedFollower(const SharedFollower&) = delete;
+  SharedFollower& operator=(const SharedFollower&) = delete;
+  ~SharedFollower() {
+    if (getpid() != process_) static_cast<void>(follower_.release());
   }
 
-  F follower;
-  std::mutex mutex;
+  template <class Work>
+  auto use(const Work& work) -> decltype(work(std::declval<F&>())) {
+    if (getpid() != process_) {
+      return Error{ErrorCode::kUsage,
+                   "the follower was made in another process, before a fork; make one in this process"};
+    }
+    const std::lock_guard lock(mutex_);
+    return work(*follower_);
+  }
+
+ private:
+  pid_t process_ = getpid();
+  std::unique_ptr<F> follower_;
+  std::mutex mutex_;
 };
+
+/// work(follower) on a thread of its own, so that signals are handled; after one, the frame is still computed.
+template <class F, class Work>
+auto use(const std::shared_ptr<SharedFollower<F>>& shared, Work work) {
+  return run([shared, work = std::move(work)] { return shared->use(work); });
+}
 
 using Inside = SharedFollower<Follower>;
 using Cover = SharedFollower<CoverFollower>;
@@ -53,12 +71,11 @@ FollowerOptions follower_options(py::dict values) {
 
 std::shared_ptr<Inside> make_inside(const MeshHandle& rest, py::handle centres, py::handle radii, py::dict values) {
   const FollowerOptions options = follower_options(std::move(values));
-  return value_of(run(std::make_shared<Call>(),
-                      [rest, balls = balls_of(centres, radii), options]() -> Result<std::shared_ptr<Inside>> {
-                        Result<Follower> made = Follower::create(rest.mesh, balls, options);
-                        if (!made) return made.error();
-                        return std::make_shared<Inside>(std::move(made).value());
-                      }));
+  return value_of(run([rest, balls = balls_of(centres, radii), options]() -> Result<std::shared_ptr<Inside>> {
+    Result<Follower> made = Follower::create(rest.mesh, balls, options);
+    if (!made) return made.error();
+    return std::make_shared<Inside>(std::move(made).value());
+  }));
 }
 
 std::shared_ptr<Cover> make_cover(const MeshHandle& rest, py::handle centres, py::handle radii, py::dict values) {
@@ -68,12 +85,11 @@ std::shared_ptr<Cover> make_cover(const MeshHandle& rest, py::handle centres, py
   options.read("steps", made.steps);
   options.read("threads", made.threads);
   options.finish();
-  return value_of(
-      run(std::make_shared<Call>(), [rest, balls = balls_of(centres, radii), made]() -> Result<std::shared_ptr<Cover>> {
-        Result<CoverFollower> follower = CoverFollower::create(rest.mesh, balls, made);
-        if (!follower) return follower.error();
-        return std::make_shared<Cover>(std::move(follower).value());
-      }));
+  return value_of(run([rest, balls = balls_of(centres, radii), made]() -> Result<std::shared_ptr<Cover>> {
+    Result<CoverFollower> follower = CoverFollower::create(rest.mesh, balls, made);
+    if (!follower) return follower.error();
+    return std::make_shared<Cover>(std::move(follower).value());
+  }));
 }
 
 /// The balls of a frame, copied while no other thread can go on to the next one.
@@ -108,26 +124,26 @@ py::dict frame_dict(Frame frame) {
 }
 
 template <class F>
-py::dict update(SharedFollower<F>& shared, py::handle array) {
-  const std::vector<Point> vertices = points_of(array, "vertices");
-  return frame_dict(shared.use([&](F& follower) {
-    require(follower.update(vertices));
+py::dict update(const std::shared_ptr<SharedFollower<F>>& shared, py::handle array) {
+  return frame_dict(value_of(use(shared, [vertices = points_of(array, "vertices")](F& follower) -> Result<Frame> {
+    Status status = follower.update(vertices);
+    if (!status) return status.error();
     return frame_of(follower);
-  }));
+  })));
 }
 
 template <class F>
-py::dict present(SharedFollower<F>& shared) {
-  return frame_dict(shared.use([](F& follower) { return frame_of(follower); }));
+py::dict present(const std::shared_ptr<SharedFollower<F>>& shared) {
+  return frame_dict(value_of(use(shared, [](F& follower) -> Result<Frame> { return frame_of(follower); })));
 }
 
 template <class F>
-void reset(SharedFollower<F>& shared) {
-  require(shared.use([](F& follower) { return follower.reset(); }));
+void reset(const std::shared_ptr<SharedFollower<F>>& shared) {
+  require(use(shared, [](F& follower) { return follower.reset(); }));
 }
 
-py::dict measure_inside(Inside& shared) {
-  const FollowMeasures measures = value_of(shared.use([](Follower& follower) { return follower.measure(); }));
+py::dict measure_inside(const std::shared_ptr<Inside>& shared) {
+  const FollowMeasures measures = value_of(use(shared, [](Follower& follower) { return follower.measure(); }));
   py::dict out;
   out["solid_volume"] = measures.solid_volume;
   out["ball_volume"] = measures.ball_volume;
@@ -135,20 +151,22 @@ py::dict measure_inside(Inside& shared) {
   return out;
 }
 
-py::dict measure_cover(Cover& shared) {
-  const CoverFollowMeasures measures = value_of(shared.use([](CoverFollower& follower) { return follower.measure(); }));
+py::dict measure_cover(const std::shared_ptr<Cover>& shared) {
+  const CoverFollowMeasures measures =
+      value_of(use(shared, [](CoverFollower& follower) { return follower.measure(); }));
   py::dict out;
   out["solid_volume"] = measures.solid_volume;
   out["ball_volume"] = measures.ball_volume;
   return out;
 }
 
-bool covers_solid(Cover& shared) {
-  return shared.use([](CoverFollower& follower) { return follower.state() == CoverState::kSolid; });
+bool covers_solid(const std::shared_ptr<Cover>& shared) {
+  return value_of(
+      use(shared, [](CoverFollower& follower) -> Result<bool> { return follower.state() == CoverState::kSolid; }));
 }
 
-void tighten(Cover& shared) {
-  require(shared.use([](CoverFollower& follower) { return follower.tighten(); }));
+void tighten(const std::shared_ptr<Cover>& shared) {
+  require(use(shared, [](CoverFollower& follower) { return follower.tighten(); }));
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace py = pybind11;
 constexpr std::size_t kFewPoints = 32;
 
 MeshHandle indexed(Mesh mesh, const PrepareOptions& options) {
-  return value_of(run(std::make_shared<Call>(), [mesh = std::move(mesh), options]() mutable -> Result<MeshHandle> {
+  return value_of(run([mesh = std::move(mesh), options]() mutable -> Result<MeshHandle> {
     Result<PreparedMesh> prepared = prepare_mesh(std::move(mesh), options);
     if (!prepared) return prepared.error();
     Result<IndexedMesh> made = IndexedMesh::build(std::move(prepared).value(), {.threads = options.threads});
@@ -45,7 +45,7 @@ MeshHandle make_mesh(py::handle vertices, py::handle triangles, py::dict options
 
 MeshHandle read_file(const std::string& path, py::dict options) {
   const PrepareOptions prepare = prepare_options(std::move(options));
-  Mesh mesh = value_of(run(std::make_shared<Call>(), [path] { return read_mesh(path); }));
+  Mesh mesh = value_of(run([path] { return read_mesh(path); }));
   return indexed(std::move(mesh), prepare);
 }
 
@@ -96,16 +96,15 @@ MeshHandle on_side(const MeshHandle& handle, py::dict values) {
   options.read("margin", made.margin);
   options.read("threads", made.threads);
   options.finish();
-  return run_here([&] { return MeshHandle{value_of(handle.mesh.on_side(made))}; });
+  return {value_of(run([mesh = handle.mesh, made] { return mesh.on_side(made); }))};
 }
 
 MeshHandle moved(const MeshHandle& handle, py::handle vertices) {
-  const std::vector<Point> points = points_of(vertices, "vertices");
-  return run_here([&] {
-    MeshHandle copy = handle;
-    require(copy.mesh.move_vertices(points));
-    return copy;
-  });
+  return {value_of(run([mesh = handle.mesh, points = points_of(vertices, "vertices")]() mutable -> Result<IndexedMesh> {
+    Status status = mesh.move_vertices(points);
+    if (!status) return status.error();
+    return mesh;
+  }))};
 }
 
 /// Beyond this size squares of coordinates could overflow.

@@ -72,7 +72,8 @@ py::dict cover_dict(const CoverProof& proof) {
   return out;
 }
 
-py::dict measures_dict(const SphereMeasures& measures) {
+/// With `balls_only` there is the proof of the contract alone.
+py::dict measures_dict(const SphereMeasures& measures, bool balls_only) {
   py::dict volume;
   volume["solid"] = measures.volume.solid;
   volume["balls"] = measures.volume.balls;
@@ -80,11 +81,14 @@ py::dict measures_dict(const SphereMeasures& measures) {
   volume["outside"] = measures.volume.outside;
   volume["standard_error"] = measures.volume.standard_error;
   volume["normalized"] = measures.volume.normalized();
+  volume["normalized_lower_bound"] = measures.volume.normalized_lower_bound();
   py::dict distances;
   distances["solid_to_balls"] = bounds_tuple(measures.distances.solid_to_balls);
   distances["balls_to_solid"] = bounds_tuple(measures.distances.balls_to_solid);
   distances["boundary_to_balls"] = bounds_tuple(measures.distances.boundary_to_balls);
   distances["boundary_to_envelope"] = bounds_tuple(measures.distances.boundary_to_envelope);
+  distances["between_sets"] = bounds_tuple(measures.distances.between_sets());
+  distances["between_surfaces"] = bounds_tuple(measures.distances.between_surfaces());
   distances["envelope_to_boundary"] = bounds_tuple(measures.distances.envelope_to_boundary);
   py::dict metrics;
   metrics["num_spheres"] = measures.metrics.num_spheres;
@@ -97,36 +101,42 @@ py::dict measures_dict(const SphereMeasures& measures) {
   metrics["max_uncovered_gap"] = measures.metrics.max_uncovered_gap;
   metrics["volume_ratio"] = measures.metrics.volume_ratio;
   py::dict out;
-  out["diagonal"] = measures.diagonal;
-  out["inside"] = inside_dict(measures.inside);
-  out["cover"] = cover_dict(measures.cover);
-  out["volume"] = std::move(volume);
-  out["distances"] = std::move(distances);
-  out["metrics"] = std::move(metrics);
+  out["diagonal"] = balls_only ? py::object(py::none()) : py::object(py::float_(measures.diagonal));
+  const py::object none = py::none();
+  out["inside"] = measures.inside.tested > 0 ? inside_dict(measures.inside) : none;
+  out["cover"] = measures.cover.triangles > 0 ? cover_dict(measures.cover) : none;
+  out["volume"] = balls_only ? none : volume;
+  out["distances"] = balls_only ? none : distances;
+  out["metrics"] = balls_only ? none : metrics;
   return out;
 }
 
-py::dict fit_dict(const SphereFit& fit) {
+py::dict fit_dict(const SphereFit& fit, bool balls_only) {
   py::list levels, reach;
   for (const std::vector<Ball>& level : fit.levels) levels.append(balls_dict(level));
   for (const ReachOut& out : fit.reach) reach.append(py::make_tuple(out.mean, out.least, out.greatest));
   py::dict out;
   out["levels"] = std::move(levels);
   out["reach"] = std::move(reach);
-  out["measures"] = measures_dict(fit.measures);
+  out["measures"] = measures_dict(fit.measures, balls_only);
   out["solid_volume"] = fit.solid_volume ? py::object(py::float_(*fit.solid_volume)) : py::object(py::none());
   return out;
 }
 
 py::dict fit_mesh(const MeshHandle& mesh, const ContextHandle& context, py::dict values, const py::object& progress) {
   const SphereFitOptions options = fit_options(std::move(values));
-  const auto call = std::make_shared<Call>();
-  const StageProgress on_progress = stage_progress(call, progress);
-  const SphereFit fit = value_of(run(call, [mesh = mesh.mesh, context, options, on_progress, call] {
-    return context->use(
-        call->token(), [&](Context& device) { return fit_spheres(mesh, options, device, on_progress, call->token()); });
-  }));
-  return fit_dict(fit);
+  const CallWithProgress reported(progress);
+  const StageProgress on_progress = reported.stages();
+  const auto call = reported.call;
+  const SphereFit fit = value_of(run(
+      call,
+      [mesh = mesh.mesh, context, options, on_progress, call] {
+        return context->use(call->token(), [&](Context& device) {
+          return fit_spheres(mesh, options, device, on_progress, call->token());
+        });
+      },
+      progress));
+  return fit_dict(fit, options.balls_only);
 }
 
 py::dict prove(const MeshHandle& mesh, py::handle inside_centres, py::handle inside_radii, py::handle cover_centres,
@@ -138,8 +148,8 @@ py::dict prove(const MeshHandle& mesh, py::handle inside_centres, py::handle ins
     return prove_spheres(mesh, inside, cover, {.threads = threads}, call->token());
   }));
   py::dict out;
-  out["inside"] = inside_dict(proofs.inside);
-  out["cover"] = cover_dict(proofs.cover);
+  out["inside"] = inside.empty() ? py::object(py::none()) : py::object(inside_dict(proofs.inside));
+  out["cover"] = cover.empty() ? py::object(py::none()) : py::object(cover_dict(proofs.cover));
   return out;
 }
 

@@ -27,8 +27,7 @@ py::dict complex_dict(const ComplexHandle& handle) {
 }
 
 py::tuple topology(const std::shared_ptr<ComplexHandle>& handle) {
-  const BettiNumbers betti =
-      value_of(run(std::make_shared<Call>(), [handle] { return betti_numbers(handle->complex); }));
+  const BettiNumbers betti = value_of(run([handle] { return betti_numbers(handle->complex); }));
   return py::make_tuple(betti.components, betti.tunnels, betti.cavities);
 }
 
