@@ -195,7 +195,7 @@ class Analysis(Result):
         Args:
             ax: Axes of projection "3d"; None: new ones.
             colour: A field of ``spheres`` with one number each: "object_angles", "radii", "sheets" or "flux".
-            mesh: Draw the edges of the mesh, too.
+            mesh: Draw the mesh as glass, too.
         """
         from ._plots import plot_points
 

@@ -114,7 +114,12 @@ class SphereFit(Result):
         return len(self.balls)
 
     def plot(self, ax: Any = None, *, colour: Any = None, mesh: Any = None) -> Any:
-        """Draws the balls with matplotlib, and the edges of ``mesh`` around them; returns the axes."""
+        """Draws the balls with matplotlib, and ``mesh`` as glass around them; returns the axes.
+
+        Args:
+            ax: Axes of projection "3d"; None: new ones.
+            colour: A colour of matplotlib, or a number for each ball; None: by radius.
+        """
         return self.balls.plot(ax, colour=colour, mesh=mesh)
 
 

@@ -85,6 +85,46 @@ class Results(unittest.TestCase):
             axes.figure.canvas.draw()
             plt.close(axes.figure)
 
+    def test_plots_of_several_objects(self):
+        """Axes show all that was drawn in them, with equal scales; numbers must fit what they colour."""
+        try:
+            import matplotlib
+        except ImportError:
+            self.skipTest("no matplotlib")
+        matplotlib.use("Agg")
+        import matplotlib.pyplot as plt
+
+        axes = self.mesh.plot(colour=np.arange(len(self.mesh.vertices)), label="number")
+        lower, upper = self.mesh.vertices.min(axis=0), self.mesh.vertices.max(axis=0)
+        self.mesh.moved(self.mesh.vertices + [5, 0, 0]).plot(axes, colour="red", alpha=0.5)
+        limits = np.array([axes.get_xlim(), axes.get_ylim(), axes.get_zlim()])
+        np.testing.assert_allclose(limits, np.column_stack([lower, upper + [5, 0, 0]]))
+        self.found.balls.plot(axes, colour=self.found.spheres.flux)
+        axes.figure.canvas.draw()
+        for colour in (np.zeros(3 + len(self.mesh.vertices)), np.zeros((2, 2))):
+            with self.assertRaisesRegex(mv.errors.UsageError, "one number for each"):
+                self.mesh.plot(axes, colour=colour)
+            with self.assertRaisesRegex(mv.errors.UsageError, "one number for each"):
+                self.found.balls.plot(axes, colour=colour)
+        plt.close(axes.figure)
+
+    def test_sheets_of_successive_numbers_have_different_colours(self):
+        try:
+            import matplotlib
+        except ImportError:
+            self.skipTest("no matplotlib")
+        matplotlib.use("Agg")
+        import matplotlib.pyplot as plt
+
+        from medial_vk import _plots
+
+        numbers = np.arange(300)
+        axes = _plots.plot_points(np.random.default_rng(1).random((300, 3)), numbers, None, None, "sheets")
+        axes.figure.canvas.draw()
+        colours = axes.collections[0].to_rgba(axes.collections[0].get_array())
+        self.assertTrue(np.all(np.any(colours[1:] != colours[:-1], axis=1)))
+        plt.close(axes.figure)
+
 
 @unittest.skipUnless(TOOL, "MEDIAL_VK_TOOL names no tool")
 class AsTheTool(unittest.TestCase):
