@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import platform
 import re
 import subprocess
+import sysconfig
 from pathlib import Path
 
 #: Part of glibc, which a manylinux tag promises. Vulkan's loader is opened at run time, if it is there.
@@ -29,8 +29,9 @@ def audited_tag(module: Path, private: list[Path]) -> str:
     held = [str(path) for path in private if len(path.parts) > 1 and str(path).encode() + b"/" in content]
     require(not held, f"it holds the paths {held}")
     versions = re.findall(r"GLIBC_(\d+)\.(\d+)", "\n".join(symbols))
+    require(bool(versions), "it needs no glibc, for which alone there is a tag here")
     major, minor = max((int(a), int(b)) for a, b in versions)
-    return f"manylinux_{major}_{minor}_{platform.machine()}"
+    return f"manylinux_{major}_{minor}_{sysconfig.get_platform().rsplit('-', 1)[-1]}"
 
 
 def require(condition: bool, what: str) -> None:

@@ -41,7 +41,7 @@ def build_wheel(
     with tempfile.TemporaryDirectory() as folder:
         staged = Path(folder) / "staged"
         build = build_folder(Path(folder))
-        run("cmake", "-S", ROOT, "-B", build, "-G", "Ninja", *cmake_options())
+        run("cmake", "-S", ROOT, "-B", build, "-G", "Ninja", *cmake_options(build))
         run("cmake", "--build", build, "--target", "medial_vk_python")
         run("cmake", "--install", build, "--component", "python", "--prefix", staged)
         module = next((staged / "medial_vk").glob("_native.*"))
@@ -51,6 +51,8 @@ def build_wheel(
 
 def build_sdist(sdist_directory: str, config_settings: dict[str, str] | None = None) -> str:
     """Packs the tracked files, from which a wheel can be built, and returns the name of the archive."""
+    if not (ROOT / ".git").exists():
+        raise SystemExit("medial-vk: a source archive is made in a checkout, where git lists the files")
     listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, check=True).stdout
     return write_sdist(Path(sdist_directory), ROOT, listed.decode().split("\0")[:-1], Metadata.read(ROOT))
 
@@ -69,20 +71,23 @@ def build_folder(temporary: Path) -> Path:
     """In the source tree, so that another build compiles only what has changed; elsewhere, if that is read-only."""
     inside = ROOT / "build" / f"wheel-{python_tag()}"
     try:
+        cache = inside / "CMakeCache.txt"
+        if cache.is_file() and f"CMAKE_HOME_DIRECTORY:INTERNAL={ROOT}\n" not in cache.read_text(encoding="utf-8"):
+            shutil.rmtree(inside)  # the tree has been moved or copied
         inside.mkdir(parents=True, exist_ok=True)
         return inside if os.access(inside, os.W_OK) else temporary / "build"
     except OSError:
         return temporary / "build"
 
 
-def cmake_options() -> list[str]:
+def cmake_options(build: Path) -> list[str]:
     """Only the module is built, with all that it needs linked into it."""
-    prefix_map = f"-ffile-prefix-map={ROOT}=."
+    prefix_map = f"-ffile-prefix-map={ROOT}=. -ffile-prefix-map={build}=build"
     options = {
         "CMAKE_BUILD_TYPE": "Release",
         "CMAKE_UNITY_BUILD": "ON",
-        "CMAKE_C_FLAGS": prefix_map,
-        "CMAKE_CXX_FLAGS": prefix_map,
+        "CMAKE_C_FLAGS": f"{os.environ.get('CFLAGS', '')} {prefix_map}".strip(),
+        "CMAKE_CXX_FLAGS": f"{os.environ.get('CXXFLAGS', '')} {prefix_map}".strip(),
         "MEDIAL_VK_BUILD_EXAMPLES": "OFF",
         "MEDIAL_VK_BUILD_PYTHON": "ON",
         "MEDIAL_VK_BUILD_TESTS": "OFF",
@@ -109,6 +114,8 @@ def licences() -> dict[str, bytes]:
         notice = Path("/usr/share/doc") / package / "copyright"
         if notice.is_file():
             texts[f"third_party/{package}.txt"] = notice.read_bytes()
+        else:
+            print(f"medial-vk: {notice} is missing: add the notice before you pass the wheel on", file=sys.stderr)
     return texts
 
 

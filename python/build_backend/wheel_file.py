@@ -10,14 +10,11 @@ import os
 import re
 import tarfile
 import time
+import tomllib
 import zipfile
 from dataclasses import dataclass
 from pathlib import Path
 
-try:
-    import tomllib
-except ModuleNotFoundError:  # before Python 3.11
-    from pip._vendor import tomli as tomllib  # type: ignore[no-redef]
 
 
 @dataclass
@@ -49,6 +46,7 @@ class Metadata:
             f"Name: {project['name']}",
             f"Version: {self.version}",
             f"Summary: {project['description']}",
+            "License: MIT",
             f"Requires-Python: {project['requires-python']}",
         ]
         lines += [f"Classifier: {name}" for name in project["classifiers"]]

@@ -5,7 +5,7 @@ and collisions, balls that follow a deforming mesh, thickness and curvature.
     >>> found = medial_vk.analyse(medial_vk.read_mesh("part.stl"), resolution=80)
     >>> found.spheres.centres, found.spheres.radii
 
-Lengths are in units of the mesh, angles in radians. Meshes and results never change; calls release the interpreter's
+Lengths are in units of the mesh, angles in radians. Meshes never change, and results belong to the caller; calls release the interpreter's
 lock, stop at Ctrl-C, and give the same bytes for the same input on the same device. The exceptions are in
 ``medial_vk.errors``. The method is that of S. Stolpner, *Medial Spheres for Shape Representation*, 2011.
 """
@@ -36,6 +36,7 @@ from ._boundary import (
     Curvature,
     LeastWall,
     Thickness,
+    TipCurvature,
     WallBall,
     curvature,
     least_wall,
@@ -130,6 +131,7 @@ __all__ = [
     "SphereProofs",
     "THICKNESS_KINDS",
     "Thickness",
+    "TipCurvature",
     "Topology",
     "UndecidedVoxels",
     "VERDICTS",

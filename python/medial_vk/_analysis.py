@@ -11,8 +11,11 @@ from ._context import Context, native_context
 from ._mesh import Mesh, as_mesh
 from ._progress import shown
 from ._results import Result
+from .errors import UsageError
 
 if TYPE_CHECKING:
+    from typing import Literal
+
     import numpy as np
     from numpy.typing import NDArray
 
@@ -82,6 +85,10 @@ class Sheets(Result):
     significance: NDArray[np.float64]  #: Lambda of equation 6.2; NaN unless volumes were requested.
     is_seam: NDArray[np.bool_]  #: By sphere: another sheet is beside it.
     is_rim: NDArray[np.bool_]  #: By sphere: its sheet ends there.
+    is_small: NDArray[np.bool_]  #: By sphere: its component is too small for a sheet of its own; its sheet is unreliable.
+    point_areas: NDArray[np.float64]  #: By sphere: of the sheet in its voxel; empty unless volumes were requested.
+    absorbed_points: int  #: Of components that were too narrow, or had too few points.
+    fragments: int  #: Sheets of fewer than ten points.
 
 
 class Significance(Result):
@@ -90,6 +97,7 @@ class Significance(Result):
     volume: float  #: Of the union of the balls.
     area: float  #: Of its envelope.
     topology: Topology
+    of_component: NDArray[np.float64]  #: The shares of the union's components, decreasing.
     of_ball: NDArray[np.float64]  #: Sums to 1.
     of_sheet: NDArray[np.float64]  #: Sums to 1.
     areas: NDArray[np.float64]  #: By ball: of its part of the envelope.
@@ -110,6 +118,10 @@ class MedialMesh(Result):
     edges: NDArray[np.uint32]  #: Those of the triangles, and bare ones, shape (k, 2).
     topology: Topology
     euler_characteristic: int
+    boundary_edges: int  #: Of one triangle.
+    non_manifold_edges: int  #: Of three triangles or more, where sheets meet.
+    bare_edges: int  #: Of no triangle, where the medial surface is a curve.
+    hosted_points: int  #: Spheres that another one represents.
 
 
 class Analysis(Result):
@@ -148,20 +160,23 @@ class Analysis(Result):
         """
         name = os.fspath(path)
         extension = os.path.splitext(name)[1].lower()
+        if ascii and extension != ".ply":
+            raise UsageError("`ascii` is for .ply")
         if extension == ".npz":
             import numpy as np
 
-            np.savez(name, **self._arrays())
+            with open(name, "wb") as file:
+                np.savez(file, **self._arrays())
         elif extension in (".ply", ".csv"):
             with open(name, "wb") as file:
                 file.write(self._native.encode(extension[1:], ascii))
         else:
-            from .errors import UsageError
-
             raise UsageError(f"{name}: the extension is not .ply, .csv or .npz")
 
     def _arrays(self) -> dict[str, Any]:
-        spheres = self.spheres
+        spheres, marks = self.spheres, {}
+        if self.sheets is not None:
+            marks = {"seam": self.sheets.is_seam, "rim": self.sheets.is_rim}
         return {
             "centre": spheres.centres,
             "radius": spheres.radii,
@@ -173,6 +188,8 @@ class Analysis(Result):
             "voxel": spheres.voxels,
             "grid_origin": self.grid.origin,
             "voxel_size": self.grid.voxel_size,
+            **self._native.header(),
+            **marks,
         }
 
     def page(self, *, title: str = "mesh", up: str = "y") -> Page:
@@ -180,14 +197,14 @@ class Analysis(Result):
 
         Args:
             title: The name of the mesh on the page.
-            up: The axis that points up: "x", "y" or "z".
+            up: The axis that points up: "x", "y", "z", "-x", "-y" or "-z".
 
         Raises:
             UsageError: The package was built without pages.
         """
         from ._page import Page
 
-        return Page(self._native.page(title, up))
+        return Page(self._native.page(title, {"up": up}))
 
     def plot(self, ax: Any = None, *, colour: str = "object_angles", mesh: bool = True) -> Any:
         """Draws the medial points with matplotlib; returns the axes.
@@ -195,7 +212,7 @@ class Analysis(Result):
         Args:
             ax: Axes of projection "3d"; None: new ones.
             colour: A field of ``spheres`` with one number each: "object_angles", "radii", "sheets" or "flux".
-            mesh: Draw the edges of the mesh, too.
+            mesh: Draw the mesh as glass, too.
         """
         from ._plots import plot_points
 
@@ -219,7 +236,7 @@ def analyse(
     resolution: int = 160,
     object_angle: float = 0.6,
     radius: float = 0.0,
-    mode: str = "certified",
+    mode: Literal["certified", "thesis"] = "certified",
     deep_angle: float = 0.15,
     epsilon: float = 0.01,
     extra_levels: int = 8,
@@ -246,10 +263,11 @@ def analyse(
         mesh: A ``Mesh``, or an object that ``Mesh()`` accepts.
         resolution: Voxels along the longest side of the bounding box, 1 to 4096.
         object_angle: Least half angle between the spokes, radians, in (0, pi / 2).
-        radius: Least radius as a fraction of the longest side, in [0, 1); 0: none.
+        radius: Also keep spheres with at least this radius, a fraction of the longest side in [0, 1), whose object angle
+            is at least ``deep_angle``; 0: none.
         mode: "certified" (every voxel has a point, a proof that it holds none, or is listed as undecided) or "thesis"
             (Sections 2.3 and 2.4 of the source as published).
-        deep_angle: With ``radius``: least object angle of points whose radius reaches it.
+        deep_angle: With ``radius``: least object angle of these, radians.
         epsilon: Greatest distance from a medial point, in voxel sides, 0.001 to 0.5.
         extra_levels: Levels of subdivision below the finest voxel, 0 to 10.
         sheets: Group the spheres into sheets; the next five arguments are those of ``SheetOptions`` (docs/theory.md).
@@ -272,6 +290,8 @@ def analyse(
 
     The same mesh, arguments and device give the same bytes, those of the command-line tool.
     """
+    if keep_topology and keep_volume == 0:
+        raise UsageError("`keep_topology` has no effect without `keep_volume`")
     of = as_mesh(mesh)
     options = {
         "mode": mode,
@@ -310,6 +330,7 @@ def _analysis_of(mesh: Mesh, native: _native.Analysis) -> Analysis:
     if sheets is not None:
         sheets["is_seam"] = sheets["is_seam"].view(bool)
         sheets["is_rim"] = sheets["is_rim"].view(bool)
+        sheets["is_small"] = sheets["is_small"].view(bool)
     for part in (significance, medial_mesh):
         if part is not None:
             part["topology"] = Topology(**part["topology"])

@@ -26,7 +26,12 @@ class Balls(Result):
         return len(self.radii)
 
     def plot(self, ax: Any = None, *, colour: Any = None, mesh: Any = None) -> Any:
-        """Draws the balls with matplotlib, and the edges of ``mesh`` around them; returns the axes."""
+        """Draws the balls with matplotlib, and ``mesh`` as glass around them; returns the axes.
+
+        Args:
+            ax: Axes of projection "3d"; None: new ones.
+            colour: A colour of matplotlib, or a number for each ball; None: by radius.
+        """
         from ._plots import plot_balls
 
         return plot_balls(self.centres, self.radii, ax, colour, mesh)
@@ -36,6 +41,7 @@ def as_arrays(balls: BallsLike | None) -> tuple[Any, Any]:
     """Centres and radii; none for None."""
     if balls is None:
         return (), ()
+    balls = getattr(balls, "balls", balls)  # those of an analysis
     centres, radii = getattr(balls, "centres", None), getattr(balls, "radii", None)
     if centres is not None and radii is not None:
         return centres, radii

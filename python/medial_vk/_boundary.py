@@ -11,6 +11,8 @@ from ._progress import shown
 from ._results import Result
 
 if TYPE_CHECKING:
+    from typing import Literal
+
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
@@ -21,7 +23,8 @@ if TYPE_CHECKING:
 
 #: What limits the ball at a point, by its number in arrays.
 THICKNESS_KINDS = ("none", "facets", "crease", "corner", "wall")
-#: What is known of a curvature, by its number in arrays. Both curvatures are known in the first two states.
+#: What is known of a curvature, by its number in arrays: both values, from fits or differences along a sheet, in the first
+#: two states; "curve" has one, "point" both of a sphere, and "exposed" those of a fit or none.
 CURVATURE_STATES = (
     "known",
     "cut",
@@ -40,8 +43,8 @@ CURVATURE_STATES = (
 class Thickness(Result):
     """Thickness at n points, in units of the mesh."""
 
-    lower: NDArray[np.float64]  #: Of the interval that is proved to hold the thickness, shape (n,).
-    upper: NDArray[np.float64]
+    lower: NDArray[np.float64]  #: Of the interval that is proved to hold the thickness, or the limit, if that is less.
+    upper: NDArray[np.float64]  #: Shape (n,).
     centres: NDArray[np.float64]  #: Of balls whose diameters are ``lower``, shape (n, 3).
     radii: NDArray[np.float64]  #: 0: no ball was found.
     object_angles: NDArray[np.float64]  #: Half the greatest angle between normals at contacts, radians.
@@ -76,7 +79,7 @@ class WallBall(Result):
 class LeastWall(Result):
     """The thinnest wall of a solid, or the narrowest gap outside it."""
 
-    lower: float  #: No wall is thinner, by proof.
+    lower: float  #: No medial ball with the object angle has a smaller diameter, by proof; the limit, if that is less.
     upper: float
     thinnest: WallBall | None  #: The ball of the upper end.
     cells: int  #: Examined.
@@ -89,12 +92,12 @@ class Curvature(Result):
     normals: NDArray[np.float64]  #: Outward, shape (n, 3).
     kappa: NDArray[np.float64]  #: Principal curvatures, the greater first, positive where convex, shape (n, 2).
     directions_1: NDArray[np.float64]  #: Unit vectors of the first principal direction, shape (n, 3).
-    directions_2: NDArray[np.float64]
-    errors: NDArray[np.float64]  #: Estimates, no bounds, shape (n,).
+    directions_2: NDArray[np.float64]  #: Of the second; in the state "curve" the tangent of the medial curve alone.
+    errors: NDArray[np.float64]  #: Estimates of the errors of ``kappa``, no bounds, shape (n,).
 
     @property
     def known(self) -> NDArray[np.bool_]:
-        """By place: whether both curvatures are known."""
+        """By place: whether both curvatures are known from fits or differences (states "known" and "cut")."""
         return self.states <= CURVATURE_STATES.index("cut")
 
     @property
@@ -108,11 +111,18 @@ class Curvature(Result):
         return self.kappa.prod(axis=1)  # type: ignore[no-any-return]
 
 
+class TipCurvature(Curvature):
+    """Curvature of the boundary at one tip of each ball."""
+
+    normal_errors: NDArray[np.float64]  #: Estimates of the errors of the normals, radians.
+    windows: NDArray[np.float64]  #: Radii of the windows of the fits.
+
+
 class BallCurvature(Result):
     """Curvature of the boundary at the two tips of each ball."""
 
-    tip_a: Curvature
-    tip_b: Curvature
+    tip_a: TipCurvature
+    tip_b: TipCurvature
     object_angles: NDArray[np.float64]  #: Half the angles between the spokes, radians.
     spacing: float  #: Of neighbouring balls along a sheet, as given or estimated.
     _native: _native.Curvature
@@ -121,7 +131,7 @@ class BallCurvature(Result):
         self,
         mesh: MeshLike,
         *,
-        assignment: str = "along surface",
+        assignment: Literal["along_surface", "voronoi"] = "along_surface",
         object_angle: float = 0.0,
         threads: int = 0,
         progress: Progress = None,
@@ -130,7 +140,7 @@ class BallCurvature(Result):
 
         Args:
             mesh: In the same units.
-            assignment: "along surface", or "voronoi": Section 5.4.3 of the source.
+            assignment: "along_surface", or "voronoi": Section 5.4.3 of the source.
             object_angle: Least one of the search that found the balls, radians; 0: that of the balls.
         """
         options = {"assignment": assignment, "object_angle": object_angle, "threads": threads}
@@ -142,7 +152,7 @@ def thickness(
     mesh: MeshLike,
     points: ArrayLike | None = None,
     *,
-    side: str = "walls",
+    side: Literal["walls", "gaps"] = "walls",
     delta: float = 0.0,
     width: float = 0.02,
     limit: float = 0.0,
@@ -187,13 +197,13 @@ def thickness(
         values = _native.measure_thickness(of._native, at, options, callback)
     import numpy as np
 
-    return Thickness(points=np.asarray(at, dtype=np.float64), mesh=of, **values)
+    return Thickness(points=np.array(at, dtype=np.float64), mesh=of, **values)
 
 
 def least_wall(
     mesh: MeshLike,
     *,
-    side: str = "walls",
+    side: Literal["walls", "gaps"] = "walls",
     object_angle: float = 1.2,
     width: float = 0.01,
     limit: float = 0.0,
@@ -229,7 +239,7 @@ def curvature(
     balls: BallsLike | Analysis,
     spokes: tuple[ArrayLike, ArrayLike] | None = None,
     *,
-    method: str = "fits",
+    method: Literal["fits", "differences"] = "fits",
     spacing: float = 0.0,
     step: float = 6.0,
     smooth: bool = False,
@@ -252,7 +262,7 @@ def curvature(
     from ._analysis import Analysis as Found
 
     if isinstance(balls, Found):
-        spokes = spokes or (balls.spheres.spokes_a, balls.spheres.spokes_b)
+        spokes = (balls.spheres.spokes_a, balls.spheres.spokes_b) if spokes is None else spokes
         spacing = spacing or balls.grid.voxel_size
         balls = balls.balls
     options = {"method": method, "spacing": spacing, "step": step, "smooth": smooth, "threads": threads}
@@ -260,8 +270,8 @@ def curvature(
     with shown(progress) as callback:
         native = _native.measure_curvature(*as_arrays(balls), spokes_a, spokes_b, options, callback)
     return BallCurvature(
-        tip_a=Curvature(**native.tips(0)),
-        tip_b=Curvature(**native.tips(1)),
+        tip_a=TipCurvature(**native.tips(0)),
+        tip_b=TipCurvature(**native.tips(1)),
         object_angles=native.object_angles(),
         spacing=native.spacing(),
         _native=native,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import threading
 
 from . import _native
@@ -34,9 +35,9 @@ class Context:
         NoDeviceError: No device is usable; the message has the reasons.
     """
 
-    def __init__(self, device: str = "", *, threads: int = 0, validation: bool = False, cache_folder: str = "") -> None:
+    def __init__(self, device: str | int = "", *, threads: int = 0, validation: bool = False, cache_folder: str | os.PathLike[str] = "") -> None:
         self._native = _native.open_context(
-            {"device": str(device), "threads": threads, "validation": validation, "cache_folder": cache_folder}
+            {"device": str(device), "threads": threads, "validation": validation, "cache_folder": os.fspath(cache_folder)}
         )
 
     @property
@@ -59,6 +60,14 @@ def list_devices() -> list[Device]:
 
 _lock = threading.Lock()
 _default: list[Context] = []
+
+
+def _renew_lock() -> None:
+    global _lock
+    _lock = threading.Lock()  # another thread may have held it at the fork
+
+
+os.register_at_fork(after_in_child=_renew_lock)
 
 
 def default_context() -> Context:

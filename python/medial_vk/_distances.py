@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from . import _native
-from ._balls import as_arrays
+from ._balls import Balls, as_arrays
 from ._mesh import as_mesh
 from ._results import Result
 
@@ -52,6 +52,16 @@ class Body:
             self._native = _native.body_of_mesh(as_mesh(mesh)._native, *as_arrays(inside), *as_arrays(cover), threads)
 
     @property
+    def inside(self) -> Balls:
+        """The balls inside, to which pairs refer."""
+        return Balls(**self._native.inside())
+
+    @property
+    def cover(self) -> Balls:
+        """The balls of the cover, to which pairs refer."""
+        return Balls(**self._native.cover())
+
+    @property
     def has_mesh(self) -> bool:
         """Whether distances by triangles are known."""
         return self._native.sizes()[0]
@@ -87,7 +97,8 @@ class Distances(Result):
 class Penetration(Result):
     """What is proved about two solids that overlap."""
 
-    depth: tuple[float, float]  #: Holds the length of the shortest translation of b that parts the solids.
+    depth: tuple[float, float]  #: Holds the length of the shortest translation of b that parts the solids; without covers
+    #: the upper end is infinite.
     translation: NDArray[np.float64]  #: One that parts them, no longer than the upper end, shape (3,).
     common_volume_lower: float
     common_volume_of_balls: float  #: Of the two unions of balls inside.
@@ -268,7 +279,8 @@ def rigid_pose(matrix: ArrayLike) -> NDArray[np.float64]:
     left part, as for a matrix in float32.
 
     Raises:
-        UsageError: The part is farther than 1e-3 from a rotation: it scales, shears or mirrors.
+        UsageError: The part is farther than 1e-3 from a rotation: it scales, shears or mirrors. The last row is farther
+            than that from 0, 0, 0, 1.
     """
     import numpy as np
 
@@ -283,6 +295,8 @@ def rigid_pose(matrix: ArrayLike) -> NDArray[np.float64]:
     rotation = left @ right
     if np.max(np.abs(rotation - near[..., :3, :3]), initial=0.0) > 1e-3 or np.any(np.linalg.det(rotation) < 0):
         raise UsageError("a matrix scales, shears or mirrors: it is no rigid motion")
+    if np.max(np.abs(near[..., 3, :] - [0, 0, 0, 1]), initial=0.0) > 1e-3:
+        raise UsageError("the last row of a matrix is not 0, 0, 0, 1: is it transposed?")
     near[..., :3, :3] = rotation
     near[..., 3, :] = (0, 0, 0, 1)
     return near

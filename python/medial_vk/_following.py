@@ -10,6 +10,8 @@ from ._mesh import as_mesh
 from ._results import Result
 
 if TYPE_CHECKING:
+    from typing import Literal
+
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
@@ -36,12 +38,22 @@ class FollowMeasures(Result):
     ball_volume: float  #: Of the union.
     outside_bound: float  #: Of the balls outside the solid; rule "tangent": 0.
 
+    @property
+    def uncovered(self) -> float:
+        """The volume of the solid in no ball; rule "published": less than that, by the volume of the balls outside."""
+        return self.solid_volume - self.ball_volume
+
 
 class CoverFollowMeasures(Result):
     """Volumes of a frame, in cubed units of the mesh."""
 
     solid_volume: float  #: NaN as above.
     ball_volume: float  #: Of the union.
+
+    @property
+    def added(self) -> float:
+        """The volume of the balls outside of the solid, if that is covered."""
+        return self.ball_volume - self.solid_volume
 
 
 class Follower:
@@ -68,7 +80,7 @@ class Follower:
         mesh: MeshLike,
         balls: BallsLike,
         *,
-        rule: str = "tangent",
+        rule: Literal["tangent", "published"] = "tangent",
         steps: int = 1,
         protrusion: float = 0.0025,
         shrunk: float = 0.5,

@@ -157,6 +157,22 @@ class Mesh:
         that distance outside, less a bound of the rounding. Shape (n,)."""
         return self._native.depths(points, threads)
 
+    def plot(self, ax: Any = None, *, colour: Any = None, alpha: float = 1.0, label: str = "") -> Any:
+        """Draws the triangles with matplotlib, shaded; returns the axes.
+
+        Args:
+            ax: Axes of projection "3d"; None: new ones.
+            colour: A colour of matplotlib, or a number for each vertex or triangle; triangles of NaN are grey.
+            alpha: Opacity, from 0 (glass) to 1.
+            label: Of the bar that numbers have.
+
+        Raises:
+            UsageError: Another number of numbers.
+        """
+        from ._plots import plot_mesh
+
+        return plot_mesh(self, ax, colour, alpha, label)
+
     def __repr__(self) -> str:
         closed = "closed" if self.report.closed else "not closed"
         return f"<Mesh of {len(self.vertices)} vertices and {len(self.triangles)} triangles, {closed}>"
@@ -171,7 +187,7 @@ def read_mesh(
         InvalidMeshError: The file cannot be read; the message has the line, face or byte.
     """
     options = {"keep_inner_faces": keep_inner_faces, "keep_outer_faces": keep_outer_faces, "threads": threads}
-    return Mesh._of(_native.read_mesh(os.fspath(path), options))
+    return Mesh._of(_native.read_mesh(os.fsencode(path), options))
 
 
 def as_mesh(mesh: MeshLike) -> Mesh:

@@ -12,12 +12,16 @@ from ._progress import shown
 from ._results import Result
 
 if TYPE_CHECKING:
+    from typing import Literal, TypeVar
+
     import numpy as np
     from numpy.typing import NDArray
 
     from ._balls import BallsLike
     from ._mesh import MeshLike
     from ._progress import Progress
+
+    R = TypeVar("R", bound=Result)
 
 
 class InsideProof(Result):
@@ -54,6 +58,7 @@ class VolumeError(Result):
     outside: float  #: Of the balls outside the solid.
     standard_error: float  #: Of the last two, if they are estimates; 0: they are exact.
     normalized: float  #: Their sum over the volume of the solid.
+    normalized_lower_bound: float  #: Of the same, by the volumes alone (Lemma 7.1 of the source).
 
 
 class EnvelopeDistances(Result):
@@ -63,6 +68,8 @@ class EnvelopeDistances(Result):
     balls_to_solid: tuple[float, float]
     boundary_to_balls: tuple[float, float]  #: The greatest gap.
     boundary_to_envelope: tuple[float, float]
+    between_sets: tuple[float, float]  #: Two-sided, of solid and balls.
+    between_surfaces: tuple[float, float]  #: Two-sided, of boundary and envelope.
     envelope_to_boundary: tuple[float, float]
 
 
@@ -81,14 +88,15 @@ class SphereFitMetrics(Result):
 
 
 class SphereMeasures(Result):
-    """The quality of a set of balls as an approximation of a solid."""
+    """The quality of a set of balls as an approximation of a solid. With ``balls_only`` it has nothing but the proof of
+    the contract."""
 
-    diagonal: float  #: Of the solid's box.
-    inside: InsideProof
-    cover: CoverProof
-    volume: VolumeError
-    distances: EnvelopeDistances
-    metrics: SphereFitMetrics
+    diagonal: float | None  #: Of the solid's box.
+    inside: InsideProof | None  #: None if it was not tried.
+    cover: CoverProof | None  #: None if it was not tried.
+    volume: VolumeError | None  #: None with ``balls_only``, like the next two.
+    distances: EnvelopeDistances | None
+    metrics: SphereFitMetrics | None
 
 
 class SphereFit(Result):
@@ -114,25 +122,30 @@ class SphereFit(Result):
         return len(self.balls)
 
     def plot(self, ax: Any = None, *, colour: Any = None, mesh: Any = None) -> Any:
-        """Draws the balls with matplotlib, and the edges of ``mesh`` around them; returns the axes."""
+        """Draws the balls with matplotlib, and ``mesh`` as glass around them; returns the axes.
+
+        Args:
+            ax: Axes of projection "3d"; None: new ones.
+            colour: A colour of matplotlib, or a number for each ball; None: by radius.
+        """
         return self.balls.plot(ax, colour=colour, mesh=mesh)
 
 
 class SphereProofs(Result):
     """The result of ``prove_spheres()``."""
 
-    inside: InsideProof
-    cover: CoverProof
+    inside: InsideProof | None  #: None if no ball was given.
+    cover: CoverProof | None  #: None if no ball was given.
 
 
 def fit_spheres(
     mesh: MeshLike,
     count: int = 0,
     *,
-    contract: str = "inside",
+    contract: Literal["inside", "cover", "balanced"] = "inside",
     error: float = 0.0,
     max_gap: float = 0.0,
-    method: str = "best",
+    method: Literal["best", "source"] = "best",
     resolution: int = 0,
     object_angle: float = 0.6,
     levels: bool = False,
@@ -147,7 +160,7 @@ def fit_spheres(
 
     Args:
         mesh: A ``Mesh``, or an object that ``Mesh()`` accepts.
-        count: Greatest number of balls; 0: as many as the other goals require.
+        count: Greatest number of balls; 0: as many as the other goals require, up to 20,000.
         contract: "inside" (no ball reaches out of the solid), "cover" (no point of the solid is outside the balls) or
             "balanced" (no claim; the volume between balls and solid is small).
         error: Greatest volume error as a share of the solid's volume, in [0, 1); 0: no such goal.
@@ -156,8 +169,9 @@ def fit_spheres(
         resolution: Of the search for candidates; 0: derived from the count.
         object_angle: Of method "source", radians.
         levels: Also return sets of half, a quarter ... of the balls.
-        balls_only: Only the balls and the proof of their contract, for a fraction of the time.
-        for_distances: Choose balls for tight bounds of distances.
+        balls_only: Only the balls and the proof of their contract, for a fraction of the time; without ``levels``.
+        for_distances: Choose balls for tight bounds of distances instead of a small volume error: method "best", contract
+            "inside" or "cover", by ``count`` alone, without ``levels``.
         threads: Of the host, 0: one per core. The result does not depend on it.
         context: Where candidates are computed; None: ``default_context()``.
         progress: A function of the stage's name and its share, or True for a bar.
@@ -202,7 +216,7 @@ def prove_spheres(
         UsageError: A ball whose numbers are not finite or beyond 1e18.
     """
     values = _native.prove_spheres(as_mesh(mesh)._native, *as_arrays(inside), *as_arrays(cover), threads)
-    return SphereProofs(inside=InsideProof(**values["inside"]), cover=CoverProof(**values["cover"]))
+    return SphereProofs(inside=_made(InsideProof, values["inside"]), cover=_made(CoverProof, values["cover"]))
 
 
 def measure_gap(mesh: MeshLike, balls: BallsLike, *, threads: int = 0) -> tuple[float, float]:
@@ -213,9 +227,13 @@ def measure_gap(mesh: MeshLike, balls: BallsLike, *, threads: int = 0) -> tuple[
 def _measures_of(values: dict[str, Any]) -> SphereMeasures:
     return SphereMeasures(
         diagonal=values["diagonal"],
-        inside=InsideProof(**values["inside"]),
-        cover=CoverProof(**values["cover"]),
-        volume=VolumeError(**values["volume"]),
-        distances=EnvelopeDistances(**values["distances"]),
-        metrics=SphereFitMetrics(**values["metrics"]),
+        inside=_made(InsideProof, values["inside"]),
+        cover=_made(CoverProof, values["cover"]),
+        volume=_made(VolumeError, values["volume"]),
+        distances=_made(EnvelopeDistances, values["distances"]),
+        metrics=_made(SphereFitMetrics, values["metrics"]),
     )
+
+
+def _made(kind: type[R], values: dict[str, Any] | None) -> R | None:
+    return None if values is None else kind(**values)

@@ -24,7 +24,7 @@ class OutOfMemoryError(Error, MemoryError):
 
 
 class StoppedError(Error, RuntimeError):
-    """The call was stopped, because another thread's call of the same kind failed or was stopped."""
+    """The call was stopped. Calls that Ctrl-C or a progress function ends raise the exception of those instead."""
 
 
 class InternalError(Error, RuntimeError):

@@ -223,6 +223,17 @@ py::bytes encode(const std::shared_ptr<AnalysisHandle>& handle, const std::strin
   })));
 }
 
+/// What files of the tool say of the search, by their names there.
+py::dict header_dict(const AnalysisHandle& handle) {
+  const MedialHeader header = header_of(handle);
+  py::dict out;
+  out["version"] = header.version;
+  out["epsilon"] = header.epsilon;
+  out["object_angle_threshold"] = header.object_angle;
+  out["radius_threshold"] = header.radius_threshold;
+  return out;
+}
+
 RunRecord record_of(const AnalysisHandle& handle, const std::string& name) {
   const Analysis& result = handle.result;
   RunRecord record;
@@ -280,6 +291,7 @@ void bind_analysis(py::module_& module) {
   py::class_<AnalysisHandle, std::shared_ptr<AnalysisHandle>>(module, "Analysis")
       .def("results", &results)
       .def("encode", &encode)
+      .def("header", &header_dict)
       .def("page", &page);
   module.def("analyse", &analyse_mesh);
 }

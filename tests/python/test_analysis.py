@@ -3,7 +3,9 @@
 import os
 import signal
 import subprocess
+import sys
 import tempfile
+import textwrap
 import threading
 import time
 import unittest
@@ -85,6 +87,46 @@ class Results(unittest.TestCase):
             axes.figure.canvas.draw()
             plt.close(axes.figure)
 
+    def test_plots_of_several_objects(self):
+        """Axes show all that was drawn in them, with equal scales; numbers must fit what they colour."""
+        try:
+            import matplotlib
+        except ImportError:
+            self.skipTest("no matplotlib")
+        matplotlib.use("Agg")
+        import matplotlib.pyplot as plt
+
+        axes = self.mesh.plot(colour=np.arange(len(self.mesh.vertices)), label="number")
+        lower, upper = self.mesh.vertices.min(axis=0), self.mesh.vertices.max(axis=0)
+        self.mesh.moved(self.mesh.vertices + [5, 0, 0]).plot(axes, colour="red", alpha=0.5)
+        limits = np.array([axes.get_xlim(), axes.get_ylim(), axes.get_zlim()])
+        np.testing.assert_allclose(limits, np.column_stack([lower, upper + [5, 0, 0]]))
+        self.found.balls.plot(axes, colour=self.found.spheres.flux)
+        axes.figure.canvas.draw()
+        for colour in (np.zeros(3 + len(self.mesh.vertices)), np.zeros((2, 2))):
+            with self.assertRaisesRegex(mv.errors.UsageError, "one number for each"):
+                self.mesh.plot(axes, colour=colour)
+            with self.assertRaisesRegex(mv.errors.UsageError, "one number for each"):
+                self.found.balls.plot(axes, colour=colour)
+        plt.close(axes.figure)
+
+    def test_sheets_of_successive_numbers_have_different_colours(self):
+        try:
+            import matplotlib
+        except ImportError:
+            self.skipTest("no matplotlib")
+        matplotlib.use("Agg")
+        import matplotlib.pyplot as plt
+
+        from medial_vk import _plots
+
+        numbers = np.arange(300)
+        axes = _plots.plot_points(np.random.default_rng(1).random((300, 3)), numbers, None, None, "sheets")
+        axes.figure.canvas.draw()
+        colours = axes.collections[0].to_rgba(axes.collections[0].get_array())
+        self.assertTrue(np.all(np.any(colours[1:] != colours[:-1], axis=1)))
+        plt.close(axes.figure)
+
 
 @unittest.skipUnless(TOOL, "MEDIAL_VK_TOOL names no tool")
 class AsTheTool(unittest.TestCase):
@@ -103,6 +145,13 @@ class AsTheTool(unittest.TestCase):
                     command = [TOOL, str(path), "--resolution", "40", "--quiet", "-o", str(path.with_name(name)), *arguments]
                     subprocess.run(command, check=True)
                 found = mv.analyse(mv.Mesh(vertices, triangles), resolution=40, **options)
+                subprocess.run([TOOL, str(path), "--resolution", "40", "--quiet", "-o", str(path.with_name("tool.npz")), *arguments],
+                               check=True)
+                found.save(path.with_name("own.npz"))
+                with np.load(path.with_name("own.npz")) as own, np.load(path.with_name("tool.npz")) as tool:
+                    self.assertEqual(set(own), set(tool))
+                    for name in own:
+                        np.testing.assert_array_equal(own[name], tool[name], name)
                 for name in ("own.ply", "own.csv"):
                     found.save(path.with_name(name))
                     tool = path.with_name(name.replace("own", "tool"))
@@ -151,6 +200,22 @@ class Progress(unittest.TestCase):
                 mv.analyse(self.mesh, resolution=40, progress=fail)
             self.assertEqual(raised.exception.args, ("extract",))
         self.assertGreater(len(mv.analyse(self.mesh, resolution=20)), 0)  # the context is as before
+
+    def test_the_callback_may_call_again(self):
+        counts = []
+
+        def again(_stage, _done):
+            if not counts:
+                counts.append(len(mv.analyse(self.mesh, resolution=10)))
+
+        found = mv.analyse(self.mesh, resolution=20, progress=again)
+        self.assertGreater(len(found), 0)
+        self.assertGreater(counts[0], 0)
+
+    def test_the_callback_runs_on_the_thread_of_the_caller(self):
+        threads = set()
+        mv.analyse(self.mesh, resolution=20, progress=lambda stage, done: threads.add(threading.get_ident()))
+        self.assertEqual(threads, {threading.get_ident()})
 
     def test_a_callback_that_cannot_be_called(self):
         with self.assertRaisesRegex(mv.errors.UsageError, "progress"):
@@ -239,6 +304,20 @@ class Contexts(unittest.TestCase):
     def test_no_device_of_that_name(self):
         with self.assertRaisesRegex(mv.errors.NoDeviceError, "no such thing"):
             mv.Context("no such thing")
+
+    def test_the_process_ends_while_threads_compute(self):
+        script = """
+            import threading, time, shapes, medial_vk as mv
+            mesh = mv.Mesh(*shapes.torus())
+            mv.analyse(mesh, resolution=10)
+            for _ in range(2):
+                threading.Thread(target=lambda: mv.analyse(mesh, resolution=400), daemon=True).start()
+            time.sleep(0.3)
+        """
+        folder = os.path.dirname(os.path.abspath(__file__))
+        environment = dict(os.environ, PYTHONPATH=os.pathsep.join([folder, os.environ.get("PYTHONPATH", "")]))
+        result = subprocess.run([sys.executable, "-c", textwrap.dedent(script)], capture_output=True, text=True, env=environment)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
 
     @unittest.skipUnless(hasattr(os, "fork"), "no fork")
     def test_a_forked_process_makes_its_own(self):

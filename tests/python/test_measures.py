@@ -23,6 +23,11 @@ class Spheres(unittest.TestCase):
         swapped = mv.prove_spheres(self.mesh, self.cover, self.inside)
         self.assertFalse(swapped.inside.proved or swapped.cover.proved)
 
+    def test_parts_that_were_not_measured_are_none(self):
+        measures = self.cover.measures  # the balls and their proof alone
+        self.assertEqual((measures.inside, measures.volume, measures.distances), (None, None, None))
+        self.assertIsNone(mv.prove_spheres(self.mesh, self.inside).cover)
+
     def test_volumes(self):
         union = mv.measure_union(self.inside)
         self.assertAlmostEqual(self.inside.measures.volume.balls, union.volume)
@@ -135,6 +140,8 @@ class Distances(unittest.TestCase):
         self.assertGreater(mv.distance_bounds(self.body, self.body, mv.rigid_pose(single)).lower, 0)
         with self.assertRaisesRegex(mv.errors.UsageError, "scales"):
             mv.rigid_pose(scaled)
+        with self.assertRaisesRegex(mv.errors.UsageError, "transposed"):
+            mv.rigid_pose(shapes.pose((1, 2, 3)).T)
 
 
 class Following(unittest.TestCase):

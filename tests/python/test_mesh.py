@@ -145,6 +145,15 @@ class Errors(unittest.TestCase):
                 mv.read_mesh(Path(folder) / "none.obj")
 
 
+    def test_exceptions_of_an_object_arrive(self):
+        class Strange:
+            def __array__(self, *_args, **_keywords):
+                raise KeyboardInterrupt
+
+        with self.assertRaises(KeyboardInterrupt):
+            mv.Mesh(Strange(), [[0, 1, 2]])
+
+
 class Queries(unittest.TestCase):
     def test_closest_points_and_depths_of_a_box(self):
         mesh = mv.Mesh(*shapes.box((2, 2, 2)))
