@@ -15,10 +15,10 @@ namespace {
 namespace py = pybind11;
 
 /// The object as an array: lists and whatever else NumPy converts. Exceptions of the object itself arrive as they are.
-py::array as_array(py::handle object, const char* name) {
+py::array as_array(py::handle array_like, const char* name) {
   const auto& numpy = py::detail::npy_api::get();
   PyObject* const made =
-      numpy.PyArray_FromAny_(object.ptr(), nullptr, 0, 0, py::detail::npy_api::NPY_ARRAY_ENSUREARRAY_, nullptr);
+      numpy.PyArray_FromAny_(array_like.ptr(), nullptr, 0, 0, py::detail::npy_api::NPY_ARRAY_ENSUREARRAY_, nullptr);
   if (made != nullptr) return py::reinterpret_steal<py::array>(made);
   if (PyErr_ExceptionMatches(PyExc_TypeError) == 0 && PyErr_ExceptionMatches(PyExc_ValueError) == 0) {
     throw py::error_already_set();
@@ -118,8 +118,8 @@ Pose pose_of(const double* m, std::size_t index, const char* name) {
 
 }  // namespace
 
-std::vector<Point> points_of(py::handle object, const char* name) {
-  py::array array = as_array(object, name);
+std::vector<Point> points_of(py::handle array_like, const char* name) {
+  py::array array = as_array(array_like, name);
   std::vector<Point> points;
   if (is_empty_list(array)) return points;
   require_rows_of_three(array, name);
@@ -132,15 +132,15 @@ std::vector<Point> points_of(py::handle object, const char* name) {
   return points;
 }
 
-Point point_of(py::handle object, const char* name) {
-  const py::array array = as_array(object, name);
+Point point_of(py::handle array_like, const char* name) {
+  const py::array array = as_array(array_like, name);
   if (array.ndim() != 1 || array.shape(0) != 3) fail_shape(array, name, "(3,)");
   const auto doubles = py::array_t<double>(as_doubles(array, name));
   return {doubles.at(0), doubles.at(1), doubles.at(2)};
 }
 
-std::vector<Triangle> triangles_of(py::handle object, const char* name) {
-  const py::array array = as_array(object, name);
+std::vector<Triangle> triangles_of(py::handle array_like, const char* name) {
+  const py::array array = as_array(array_like, name);
   std::vector<Triangle> triangles;
   if (is_empty_list(array)) return triangles;
   require_rows_of_three(array, name);
@@ -166,8 +166,8 @@ std::vector<Triangle> triangles_of(py::handle object, const char* name) {
   return triangles;
 }
 
-std::vector<double> numbers_of(py::handle object, const char* name) {
-  const py::array array = as_array(object, name);
+std::vector<double> numbers_of(py::handle array_like, const char* name) {
+  const py::array array = as_array(array_like, name);
   if (array.ndim() != 1) fail_shape(array, name, "(n,)");
   const auto doubles = py::array_t<double>(as_doubles(array, name));
   const auto view = doubles.unchecked<1>();
@@ -187,8 +187,8 @@ std::vector<Ball> balls_of(py::handle centres, py::handle radii) {
   return balls;
 }
 
-std::vector<Pose> poses_of(py::handle object, const char* name) {
-  const py::array array = as_array(object, name);
+std::vector<Pose> poses_of(py::handle array_like, const char* name) {
+  const py::array array = as_array(array_like, name);
   if (array.ndim() != 3 || array.shape(1) != 4 || array.shape(2) != 4) fail_shape(array, name, "(n, 4, 4)");
   const auto doubles = py::array_t<double, py::array::c_style | py::array::forcecast>(as_doubles(array, name));
   std::vector<Pose> poses(static_cast<std::size_t>(doubles.shape(0)));

@@ -22,19 +22,19 @@ namespace medial_vk::python {
 
 /// The rows of an array of numbers, shape (n, 3), of any real type; float64 and float32 are read in place. The library
 /// tests the numbers. Error: kUsage, which calls the array `name`.
-std::vector<Point> points_of(pybind11::handle array, const char* name);
+std::vector<Point> points_of(pybind11::handle array_like, const char* name);
 /// One point, shape (3,).
-Point point_of(pybind11::handle array, const char* name);
+Point point_of(pybind11::handle array_like, const char* name);
 /// The rows of an array of integers, shape (n, 3), whose values fit into 32 bits; all types of 32 and 64 bits are read
 /// in place. Errors: kUsage (also names the first row with a value that does not fit).
-std::vector<Triangle> triangles_of(pybind11::handle array, const char* name);
+std::vector<Triangle> triangles_of(pybind11::handle array_like, const char* name);
 /// Numbers, shape (n,).
-std::vector<double> numbers_of(pybind11::handle array, const char* name);
+std::vector<double> numbers_of(pybind11::handle array_like, const char* name);
 /// Centres, shape (n, 3), and radii, shape (n,).
 std::vector<Ball> balls_of(pybind11::handle centres, pybind11::handle radii);
 /// Rigid motions, as matrices of shape (n, 4, 4) whose last rows are 0, 0, 0, 1. Error: kUsage, also for a matrix whose
 /// upper left part is no rotation to within 1e-12, or whose shift is not finite.
-std::vector<Pose> poses_of(pybind11::handle array, const char* name);
+std::vector<Pose> poses_of(pybind11::handle array_like, const char* name);
 
 /// An array that owns the vector's memory, without a copy. Shape (size,).
 template <class T>
