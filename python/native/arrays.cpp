@@ -72,6 +72,16 @@ py::array as_doubles(const py::array& array, const char* name) {
 /// An empty list counts as no rows.
 bool is_empty_list(const py::array& array) { return array.ndim() == 1 && array.size() == 0; }
 
+/// The numbers of an array of doubles with one dimension, wherever they lie.
+std::vector<double> row_of(const py::array& doubles) {
+  const auto* bytes = static_cast<const char*>(doubles.data());
+  std::vector<double> numbers(static_cast<std::size_t>(doubles.shape(0)));
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    std::memcpy(&numbers[i], bytes + static_cast<py::ssize_t>(i) * doubles.strides(0), sizeof(double));
+  }
+  return numbers;
+}
+
 void require_rows_of_three(const py::array& array, const char* name) {
   if (array.ndim() != 2 || array.shape(1) != 3) fail_shape(array, name, "(n, 3)");
 }
@@ -99,7 +109,7 @@ double distance_from_rotation(const std::array<Point, 3>& rows) {
   return determinant > 0 ? greatest : std::numeric_limits<double>::infinity();
 }
 
-Pose pose_of(const double* m, std::size_t index, const char* name) {
+Pose pose_of(const std::array<double, 16>& m, std::size_t index, const char* name) {
   Pose pose;
   for (std::size_t i = 0; i < 3; ++i) {
     pose.rotation[i] = {m[4 * i], m[4 * i + 1], m[4 * i + 2]};
@@ -135,8 +145,8 @@ std::vector<Point> points_of(py::handle array_like, const char* name) {
 Point point_of(py::handle array_like, const char* name) {
   const py::array array = as_array(array_like, name);
   if (array.ndim() != 1 || array.shape(0) != 3) fail_shape(array, name, "(3,)");
-  const auto doubles = py::array_t<double>(as_doubles(array, name));
-  return {doubles.at(0), doubles.at(1), doubles.at(2)};
+  const std::vector<double> numbers = row_of(as_doubles(array, name));
+  return {numbers[0], numbers[1], numbers[2]};
 }
 
 std::vector<Triangle> triangles_of(py::handle array_like, const char* name) {
@@ -169,11 +179,7 @@ std::vector<Triangle> triangles_of(py::handle array_like, const char* name) {
 std::vector<double> numbers_of(py::handle array_like, const char* name) {
   const py::array array = as_array(array_like, name);
   if (array.ndim() != 1) fail_shape(array, name, "(n,)");
-  const auto doubles = py::array_t<double>(as_doubles(array, name));
-  const auto view = doubles.unchecked<1>();
-  std::vector<double> numbers(static_cast<std::size_t>(view.shape(0)));
-  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = view(static_cast<py::ssize_t>(i));
-  return numbers;
+  return row_of(as_doubles(array, name));
 }
 
 std::vector<Ball> balls_of(py::handle centres, py::handle radii) {
@@ -192,7 +198,12 @@ std::vector<Pose> poses_of(py::handle array_like, const char* name) {
   if (array.ndim() != 3 || array.shape(1) != 4 || array.shape(2) != 4) fail_shape(array, name, "(n, 4, 4)");
   const auto doubles = py::array_t<double, py::array::c_style | py::array::forcecast>(as_doubles(array, name));
   std::vector<Pose> poses(static_cast<std::size_t>(doubles.shape(0)));
-  for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = pose_of(doubles.data() + 16 * i, i, name);
+  const auto* bytes = static_cast<const char*>(static_cast<const void*>(doubles.data()));
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    std::array<double, 16> matrix;  // an array need not be aligned
+    std::memcpy(matrix.data(), bytes + i * sizeof(matrix), sizeof(matrix));
+    poses[i] = pose_of(matrix, i, name);
+  }
   return poses;
 }
 

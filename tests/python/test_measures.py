@@ -70,6 +70,9 @@ class Unions(unittest.TestCase):
         volumes = [mv.measure_union(form).volume for form in
                    (rows, rows.tolist(), (rows[:, :3], rows[:, 3]), mv.Balls(centres=rows[:, :3], radii=rows[:, 3]))]
         self.assertEqual(len(set(volumes)), 1)
+        packed = np.zeros(2, dtype=np.dtype([("tag", "u1"), ("radius", "f8")]))
+        packed["radius"] = rows[:, 3]
+        self.assertEqual(mv.measure_union((rows[:, :3], packed["radius"])).volume, volumes[0])  # not aligned
         with self.assertRaisesRegex(mv.errors.UsageError, r"\(n, 4\)"):
             mv.measure_union(rows[:, :3])
         with self.assertRaisesRegex(mv.errors.UsageError, "ball 1"):
