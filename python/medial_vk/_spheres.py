@@ -160,7 +160,8 @@ def fit_spheres(
 
     Args:
         mesh: A ``Mesh``, or an object that ``Mesh()`` accepts.
-        count: Greatest number of balls; 0: as many as the other goals require, up to 20,000.
+        count: Greatest number of balls; 0: as many as the other goals require, up to 20,000, or, with
+            method "source", as the resolution gives.
         contract: "inside" (no ball reaches out of the solid), "cover" (no point of the solid is outside the balls) or
             "balanced" (no claim; the volume between balls and solid is small).
         error: Greatest volume error as a share of the solid's volume, in [0, 1); 0: no such goal.

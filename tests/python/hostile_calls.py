@@ -149,7 +149,7 @@ class Hostile:
         mv.curvature(found, spacing=self.number(0.0), progress=self.callback())
 
     def fit(self):
-        mv.fit_spheres(self.mesh(), self.number(1, 2), contract=self.one_of("inside", "x", 3), resolution=self.one_of(4, 8, -1),
+        mv.fit_spheres(self.mesh(), self.number(1, 2), contract=self.one_of("inside", "inside", "inside", "x"), resolution=self.one_of(4, 8, 8, -1),
                        balls_only=True, progress=self.callback(), error=self.number(0.0))
 
     def prove(self):
@@ -195,7 +195,7 @@ class Hostile:
         work = self.rng.choices(
             (self.make_mesh, self.queries, self.analyse, self.fit, self.prove, self.union, self.make_body, self.distance,
              self.follow, self.boundary),
-            weights=(20, 20, 2, 2, 15, 15, 10, 30, 10, 10),
+            weights=(20, 20, 4, 4, 15, 15, 10, 30, 10, 10),
         )[0]
         try:
             work()

@@ -185,6 +185,15 @@ class Boundary(unittest.TestCase):
         self.assertTrue(wall.lower <= 0.1 <= wall.upper * (1 + 1e-12))
         self.assertAlmostEqual(wall.thinnest.radius, 0.05, places=2)
 
+    def test_thickness_deep_in_a_solid(self):
+        """A point far from the boundary, few distances: the search ends with a wide interval, not when memory does."""
+        mesh = mv.Mesh(*shapes.torus(around=12, across=8))
+        point = [0.91602537, 0.22605296, 0.30151356]
+        found, better = (mv.thickness(mesh, [point], width=0.1, queries=queries) for queries in (50, 1000))
+        self.assertLessEqual(found.lower[0], better.upper[0])
+        self.assertLessEqual(better.lower[0], found.upper[0])
+        self.assertGreater(found.lower[0], 0.5)  # the tube's diameter is 0.8 at most
+
     def test_curvature_of_a_torus(self):
         mesh = mv.Mesh(*shapes.torus(around=96, across=48))
         found = mv.analyse(mesh, resolution=80, object_angle=0.5)

@@ -34,7 +34,8 @@ enum class SphereMethod {
 struct SphereFitOptions {
   SphereMethod method = SphereMethod::kBest;
   SphereContract contract = SphereContract::kInside;
-  /// Greatest number of balls; 0: the number that the other goals require, of which one must then be given.
+  /// Greatest number of balls; 0: the number that the other goals require, of which one must then be given, or, with
+  /// method kSource, the resolution.
   std::size_t count = 0;
   /// Greatest volume error, as a share of the solid's volume: kInside: the uncovered volume; kCover: the added volume;
   /// kBalanced: the sum of both, by an estimate. In [0, 1); 0: no such goal.

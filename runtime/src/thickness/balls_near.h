@@ -56,6 +56,9 @@ class BallsNear {
   double target_of_contacts() const { return target() / kBoundRounding - rounding_; }
   /// No further distances are of use, as no ball counts as larger than the best one, or may be computed.
   bool is_exhausted() const { return best_.radius >= limit_ || queries_ >= field_.options.queries; }
+  /// The same after so many cells of directions: a point in the solid may have more of them than memory holds, in whose
+  /// middles no distance is needed.
+  bool is_exhausted(std::uint64_t cells) const { return is_exhausted() || cells / kMostCells >= field_.options.queries; }
 
   ContactLists& contacts() { return contacts_; }
   void mark_used(std::size_t contact) { used_[contact] = true; }
@@ -83,6 +86,7 @@ class BallsNear {
   void collect_contacts(double beyond, std::vector<BallContact>& found) const;
 
  private:
+  static constexpr std::uint64_t kMostCells = 64;  // for each distance that may be computed
   void go_back(const Point& direction, double distance, Probe found);
   void add(const Contact& contact, const Point& normal);
   void record(const Point& offset, double radius);

@@ -20,7 +20,7 @@ void CellSearch::start() {
 }
 
 double CellSearch::run() {
-  while (!open_.empty() && open_.front().reach > balls_.least_reach() && !balls_.is_exhausted()) divide();
+  while (!open_.empty() && open_.front().reach > balls_.least_reach() && !balls_.is_exhausted(number_)) divide();
   const double open = open_.empty() ? 0 : open_.front().reach;
   return std::max(left_, open);
 }

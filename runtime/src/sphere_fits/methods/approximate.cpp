@@ -62,7 +62,8 @@ Status check_request(const Solid& solid, const SphereFitOptions& options) {
       return {};
     return usage("`for_distances` gives sets of the method best, inside or covers, by `count` alone, without levels");
   }
-  if (options.count == 0 && options.error == 0 && options.max_gap == 0) {
+  const bool is_by_resolution = options.method == SphereMethod::kSource && options.resolution > 0;
+  if (options.count == 0 && options.error == 0 && options.max_gap == 0 && !is_by_resolution) {
     return usage("there is no goal: give a `count`, an `error` or a `max_gap`");
   }
   // Balls inside keep a distance of the rounding from the boundary.
