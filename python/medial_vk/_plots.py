@@ -79,9 +79,9 @@ def _triangle_colours(mesh: Any, colour: Any) -> tuple[Any, Any]:
 
 def plot_mesh(mesh: Any, ax: Any, colour: Any, alpha: float, label: str) -> Any:
     """The triangles, shaded."""
+    axes = _axes(ax)  # first, so that an error names matplotlib where it is not installed
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection  # type: ignore[import]
 
-    axes = _axes(ax)
     base, scale = _triangle_colours(mesh, colour)
     corners = mesh.vertices[mesh.triangles]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
