@@ -195,9 +195,7 @@ def thickness(
     }
     with shown(progress) as callback:
         values = _native.measure_thickness(of._native, at, options, callback)
-    import numpy as np
-
-    return Thickness(points=np.array(at, dtype=np.float64), mesh=of, **values)
+    return Thickness(mesh=of, **values)
 
 
 def least_wall(

@@ -266,10 +266,8 @@ def first_contact(
         clearance: Bodies count as in contact where their distance is at most this.
         tolerance: Of the time, at least 1e-12.
     """
-    import numpy as np
-
     options = {"clearance": clearance, "tolerance": tolerance, "surfaces_only": surfaces_only}
-    values = _native.first_contact(a._native, b._native, np.stack([np.asarray(start), np.asarray(end)]), pivot, options)
+    values = _native.first_contact(a._native, b._native, _as_many(start)[0], _as_many(end)[0], pivot, options)
     values["verdict"] = VERDICTS[values.pop("state")]
     return FirstContact(**values)
 
@@ -286,9 +284,10 @@ def rigid_pose(matrix: ArrayLike) -> NDArray[np.float64]:
 
     from .errors import UsageError
 
+    shape = np.shape(matrix)
+    if len(shape) not in (2, 3) or shape[-2:] != (4, 4):
+        raise UsageError(f"the shape {shape} is not (4, 4) or (n, 4, 4)")
     near = np.array(matrix, dtype=np.float64)
-    if near.shape[-2:] != (4, 4):
-        raise UsageError(f"the shape {near.shape} is not (4, 4) or (n, 4, 4)")
     if not np.all(np.isfinite(near)):
         raise UsageError("a matrix is not finite")
     left, _, right = np.linalg.svd(near[..., :3, :3])

@@ -47,6 +47,7 @@ ThicknessOptions thickness_options(py::dict values) {
 
 py::dict thickness(const MeshHandle& mesh, py::handle array, py::dict values, const py::object& progress) {
   std::vector<Point> points = points_of(array, "points");
+  const py::array_t<double> read = array_of(std::vector<Point>(points));
   const bool is_short = points.size() <= kFewTips;
   const ThicknessOptions options = thickness_options(std::move(values));
   const CallWithProgress reported(progress);
@@ -59,6 +60,7 @@ py::dict thickness(const MeshHandle& mesh, py::handle array, py::dict values, co
       },
       progress));
   py::dict out;
+  out["points"] = read;
   out["lower"] = column(measured, [](const Thickness& at) { return at.diameter.lower; });
   out["upper"] = column(measured, [](const Thickness& at) { return at.diameter.upper; });
   out["centres"] = column(measured, [](const Thickness& at) { return at.ball.centre; });

@@ -222,11 +222,9 @@ py::dict depth(const std::shared_ptr<Body>& a, const std::shared_ptr<Body>& b, p
   return out;
 }
 
-py::dict contact(const std::shared_ptr<Body>& a, const std::shared_ptr<Body>& b, py::handle array, py::handle pivot,
-                 py::dict values) {
-  const std::vector<Pose> ends = poses_of(array, "ends");
-  if (ends.size() != 2) fail_usage("a motion goes from one pose to another");
-  const Motion motion = {ends[0], ends[1], point_of(pivot, "pivot")};
+py::dict contact(const std::shared_ptr<Body>& a, const std::shared_ptr<Body>& b, py::handle start, py::handle end,
+                 py::handle pivot, py::dict values) {
+  const Motion motion = {only_pose(start), only_pose(end), point_of(pivot, "pivot")};
   ContactOptions made;
   Options options(std::move(values));
   options.read("clearance", made.clearance);
