@@ -287,6 +287,8 @@ def rigid_pose(matrix: ArrayLike) -> NDArray[np.float64]:
     shape = np.shape(matrix)
     if len(shape) not in (2, 3) or shape[-2:] != (4, 4):
         raise UsageError(f"the shape {shape} is not (4, 4) or (n, 4, 4)")
+    if np.asarray(matrix).dtype.kind not in "fiu":
+        raise UsageError("a matrix is not one of real numbers")
     near = np.array(matrix, dtype=np.float64)
     if not np.all(np.isfinite(near)):
         raise UsageError("a matrix is not finite")

@@ -143,6 +143,8 @@ class Distances(unittest.TestCase):
         self.assertGreater(mv.distance_bounds(self.body, self.body, mv.rigid_pose(single)).lower, 0)
         with self.assertRaisesRegex(mv.errors.UsageError, "scales"):
             mv.rigid_pose(scaled)
+        with self.assertRaisesRegex(mv.errors.UsageError, "real"):
+            mv.rigid_pose(np.eye(4) * 1j)
         with self.assertRaisesRegex(mv.errors.UsageError, "transposed"):
             mv.rigid_pose(shapes.pose((1, 2, 3)).T)
 

@@ -33,7 +33,7 @@ struct ThicknessOptions {
   double limit = 0;
   /// Distances for a point, after which an interval of four times the width is enough.
   std::uint32_t patience = 50;
-  /// Distances that may be computed for a point, each with up to 64 cells of directions; then its interval is left wider.
+  /// Distances that may be computed for a point, each with up to 64 cells of directions; then its interval stays wider.
   std::uint32_t queries = 1000;
   /// Object angles, in radians, that distinguish kinds (ThicknessKind): a wall has at least the first, and facets have
   /// less than the second, which is 0 or more and at most the first, up to pi / 2.
