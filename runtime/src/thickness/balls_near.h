@@ -58,7 +58,9 @@ class BallsNear {
   bool is_exhausted() const { return best_.radius >= limit_ || queries_ >= field_.options.queries; }
   /// The same after so many cells of directions: a point in the solid may have more of them than memory holds, in whose
   /// middles no distance is needed.
-  bool is_exhausted(std::uint64_t cells) const { return is_exhausted() || cells / kMostCells >= field_.options.queries; }
+  bool is_exhausted(std::uint64_t cells) const {
+    return is_exhausted() || cells / kMostCells >= field_.options.queries;
+  }
 
   ContactLists& contacts() { return contacts_; }
   void mark_used(std::size_t contact) { used_[contact] = true; }
