@@ -23,9 +23,6 @@ struct AnalysisHandle {
   Analysis result;
 };
 
-template <class T>
-using Choice = std::pair<std::string_view, T>;
-
 void read_sheet_options(Options& options, AnalysisOptions& made) {
   bool sheets = true;
   options.read("sheets", sheets);
@@ -249,20 +246,10 @@ RunRecord record_of(const AnalysisHandle& handle, const std::string& name) {
   record.search.outside = !record.search.inside;
   record.search.margin = handle.mesh.margin();
   record.search.inside_points = record.search.inside ? result.spheres.size() : 0;
-  record.grid = result.grid;
-  record.counters = result.measurements.counters;
-  record.undecided = result.undecided;
-  record.certify = result.certificate;
-  record.points = result.spheres.size();
-  record.simplified = result.simplified;
-  record.radii = range_of_radii(result.spheres);
-  record.object_angles = range_of_object_angles(result.spheres);
+  record_analysis(result, record);
   if (handle.options.sheets) record.sheet_options = *handle.options.sheets;
-  if (result.sheets) record.sheets = *result.sheets;
   if (record.search.inside && result.sheets) record.search.inside_sheets = result.sheets->sheets.size();
-  record.by_significance = result.by_significance;
-  record.keeping_topology = result.keeping_topology;
-  record.removal = result.removal;
+  if (result.significance) record.ball_union = record_union(*result.significance);
   record.keep_topology = handle.options.keep_volume > 0 && handle.options.keep_topology;
   if (result.medial_mesh) record.medial_mesh = result.medial_mesh->topology;
   record.euler_characteristic = result.euler_characteristic;

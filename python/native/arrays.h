@@ -69,4 +69,12 @@ auto column(const Range& range, Get get) {
   return array_of(std::move(values));
 }
 
+/// Balls as their `centres` and `radii`.
+inline pybind11::dict balls_dict(std::span<const Ball> balls) {
+  pybind11::dict out;
+  out["centres"] = column(balls, [](const Ball& ball) { return ball.centre; });
+  out["radii"] = column(balls, [](const Ball& ball) { return ball.radius; });
+  return out;
+}
+
 }  // namespace medial_vk::python

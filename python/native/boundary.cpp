@@ -25,8 +25,8 @@ constexpr std::size_t kFewTips = 16;
 
 void read_side(Options& options, ThicknessSide& side) {
   options.read("side", side,
-               std::array{std::pair{std::string_view("walls"), ThicknessSide::kWalls},
-                          std::pair{std::string_view("gaps"), ThicknessSide::kGaps}});
+               std::array{Choice<ThicknessSide>{"walls", ThicknessSide::kWalls},
+                          Choice<ThicknessSide>{"gaps", ThicknessSide::kGaps}});
 }
 
 ThicknessOptions thickness_options(py::dict values) {
@@ -124,8 +124,8 @@ CurvatureOptions curvature_options(py::dict values) {
   CurvatureOptions made;
   Options options(std::move(values));
   options.read("method", made.method,
-               std::array{std::pair{std::string_view("fits"), CurvatureMethod::kFits},
-                          std::pair{std::string_view("differences"), CurvatureMethod::kDifferences}});
+               std::array{Choice<CurvatureMethod>{"fits", CurvatureMethod::kFits},
+                          Choice<CurvatureMethod>{"differences", CurvatureMethod::kDifferences}});
   options.read("spacing", made.spacing);
   options.read("step", made.step);
   options.read("smooth", made.smooth);
@@ -175,8 +175,8 @@ py::dict at_vertices(const std::shared_ptr<CurvatureHandle>& handle, const MeshH
   VertexCurvatureOptions made;
   Options options(std::move(values));
   options.read("assignment", made.assignment,
-               std::array{std::pair{std::string_view("along_surface"), CurvatureAssignment::kAlongSurface},
-                          std::pair{std::string_view("voronoi"), CurvatureAssignment::kVoronoi}});
+               std::array{Choice<CurvatureAssignment>{"along_surface", CurvatureAssignment::kAlongSurface},
+                          Choice<CurvatureAssignment>{"voronoi", CurvatureAssignment::kVoronoi}});
   options.read("object_angle", made.object_angle);
   options.read("threads", made.threads);
   options.finish();

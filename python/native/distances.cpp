@@ -42,13 +42,6 @@ std::shared_ptr<Body> body_of_balls(py::handle inside_centres, py::handle inside
       })));
 }
 
-py::dict balls_dict(std::span<const Ball> balls) {
-  py::dict out;
-  out["centres"] = column(balls, [](const Ball& ball) { return ball.centre; });
-  out["radii"] = column(balls, [](const Ball& ball) { return ball.radius; });
-  return out;
-}
-
 py::tuple sizes(const Body& body) { return py::make_tuple(body.has_mesh(), body.inside().size(), body.cover().size()); }
 
 std::int64_t index_of(std::uint32_t index) { return index == BallPair::kNone ? -1 : std::int64_t{index}; }
@@ -64,7 +57,7 @@ py::array_t<std::int64_t> pairs(const std::vector<DistanceBounds>& results, Ball
   });
 }
 
-/// The rows of a call for one pose, which is answered on the calling thread, without arrays of one element each.
+/// Of a call for one pose.
 Pose only_pose(py::handle array) {
   const std::vector<Pose> poses = poses_of(array, "poses");
   if (poses.size() != 1) fail_usage("one pose is expected");
@@ -203,8 +196,7 @@ py::array_t<std::uint8_t> verdicts(const std::shared_ptr<Body>& a, const std::sh
 }
 
 py::dict depth(const std::shared_ptr<Body>& a, const std::shared_ptr<Body>& b, py::handle array, py::dict values) {
-  const std::vector<Pose> poses = poses_of(array, "pose");
-  if (poses.size() != 1) fail_usage("`pose` is not one pose");
+  const Pose pose = only_pose(array);
   PenetrationOptions made;
   Options options(std::move(values));
   options.read("directions", made.directions);
@@ -212,7 +204,7 @@ py::dict depth(const std::shared_ptr<Body>& a, const std::shared_ptr<Body>& b, p
   options.read("volume_tolerance", made.volume_tolerance);
   options.read("most_columns", made.most_columns);
   options.finish();
-  const Penetration result = value_of(run([a, b, pose = poses[0], made] { return penetration(*a, *b, pose, made); }));
+  const Penetration result = value_of(run([a, b, pose, made] { return penetration(*a, *b, pose, made); }));
   py::dict out;
   out["depth"] = py::make_tuple(result.depth_lower, result.depth_upper);
   out["translation"] = array_of(result.translation);

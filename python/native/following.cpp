@@ -56,8 +56,8 @@ FollowerOptions follower_options(py::dict values) {
   FollowerOptions made;
   Options options(std::move(values));
   options.read("rule", made.rule,
-               std::array{std::pair{std::string_view("tangent"), FollowRule::kTangent},
-                          std::pair{std::string_view("published"), FollowRule::kPublished}});
+               std::array{Choice<FollowRule>{"tangent", FollowRule::kTangent},
+                          Choice<FollowRule>{"published", FollowRule::kPublished}});
   options.read("steps", made.steps);
   options.read("protrusion", made.protrusion);
   options.read("shrunk", made.shrunk);
@@ -115,9 +115,7 @@ Frame frame_of(const CoverFollower& follower) {
 }
 
 py::dict frame_dict(Frame frame) {
-  py::dict out;
-  out["centres"] = column(frame.balls, [](const Ball& ball) { return ball.centre; });
-  out["radii"] = column(frame.balls, [](const Ball& ball) { return ball.radius; });
+  py::dict out = balls_dict(frame.balls);
   out["states"] = array_of(std::move(frame.states));
   out["origins"] = array_of(std::move(frame.origins));
   return out;

@@ -90,9 +90,9 @@ py::array_t<T> rows_of(const MeshHandle& handle, std::span<const std::array<T, n
 MeshHandle on_side(const MeshHandle& handle, py::dict values) {
   SideOptions made;
   Options options(std::move(values));
-  options.read("side", made.side,
-               std::array{std::pair{std::string_view("inside"), MeshSide::kInside},
-                          std::pair{std::string_view("outside"), MeshSide::kOutside}});
+  options.read(
+      "side", made.side,
+      std::array{Choice<MeshSide>{"inside", MeshSide::kInside}, Choice<MeshSide>{"outside", MeshSide::kOutside}});
   options.read("margin", made.margin);
   options.read("threads", made.threads);
   options.finish();

@@ -13,6 +13,10 @@
 
 namespace medial_vk::python {
 
+/// A word, and the value that it stands for.
+template <class T>
+using Choice = std::pair<std::string_view, T>;
+
 /// Reads a dictionary of options. Each of its entries must be read: an unread one is a defect of this package.
 class Options {
  public:
@@ -32,7 +36,7 @@ class Options {
 
   /// The same for a text among several, each of which stands for a value.
   template <class T, std::size_t n>
-  void read(const char* name, T& field, const std::array<std::pair<std::string_view, T>, n>& choices) {
+  void read(const char* name, T& field, const std::array<Choice<T>, n>& choices) {
     const std::string text = text_of(name);
     std::string known;
     for (const auto& [word, value] : choices) {

@@ -12,9 +12,6 @@ namespace {
 
 namespace py = pybind11;
 
-template <class T>
-using Choice = std::pair<std::string_view, T>;
-
 SphereFitOptions fit_options(py::dict values) {
   SphereFitOptions made;
   Options options(std::move(values));
@@ -36,13 +33,6 @@ SphereFitOptions fit_options(py::dict values) {
   options.read("threads", made.threads);
   options.finish();
   return made;
-}
-
-py::dict balls_dict(const std::vector<Ball>& balls) {
-  py::dict out;
-  out["centres"] = column(balls, [](const Ball& ball) { return ball.centre; });
-  out["radii"] = column(balls, [](const Ball& ball) { return ball.radius; });
-  return out;
 }
 
 py::tuple bounds_tuple(const Bounds& bounds) { return py::make_tuple(bounds.lower, bounds.upper); }

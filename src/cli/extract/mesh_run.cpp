@@ -48,12 +48,6 @@ AnalysisOptions analysis_options(const Options& options) {
   return out;
 }
 
-std::uint64_t leading_components(const std::vector<double>& shares) {
-  std::uint64_t count = 0;
-  for (double held = 0; count < shares.size() && held < kLeadingShare; ++count) held += shares[count];
-  return count;
-}
-
 /// The object angle of the extraction, and the multiples of 0.2 above it.
 std::vector<double> angles_of_fatness(double least) {
   std::vector<double> angles = {least};
@@ -176,9 +170,7 @@ Status MeshRun::analyse_mesh() {
     }
     if (record_.search.outside) record_.search.sides.push_back(record_of(mesh.side(), made.value()));
     if (made.value().significance) {
-      const Significance& measured = *made.value().significance;
-      (is_first ? record_.ball_union : record_.outside_union) =
-          UnionRecord{measured.volume, measured.area, measured.topology, leading_components(measured.of_component)};
+      (is_first ? record_.ball_union : record_.outside_union) = record_union(*made.value().significance);
     }
     analysis_ = is_first ? std::move(made).value() : joined(std::move(analysis_), std::move(made).value());
   }
@@ -187,21 +179,9 @@ Status MeshRun::analyse_mesh() {
 }
 
 void MeshRun::describe() {
-  record_.grid = analysis_.grid;
-  record_.counters = std::move(analysis_.measurements.counters);
-  record_.undecided = std::move(analysis_.undecided);
-  record_.device_times = std::move(analysis_.measurements.device_times);
-  record_.certify = analysis_.certificate;
-  record_.simplified = analysis_.simplified;
-  record_.points = analysis_.spheres.size();
-  record_.radii = range_of_radii(analysis_.spheres);
-  record_.object_angles = range_of_object_angles(analysis_.spheres);
+  record_analysis(analysis_, record_);
   record_.sheet_options = options_.sheets;
-  record_.sheets = std::move(*analysis_.sheets);
   record_.orders_end_at = options_.sheet_curve.empty() ? options_.keep_volume : 0;
-  record_.by_significance = std::move(analysis_.by_significance);
-  record_.keeping_topology = std::move(analysis_.keeping_topology);
-  record_.removal = std::move(analysis_.removal);
   record_.keep_volume = options_.keep_volume;
   record_.keep_topology = options_.keep_volume > 0 && options_.keep_topology;
   for (StageTime& time : analysis_.measurements.host_times) {

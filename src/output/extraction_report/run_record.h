@@ -10,6 +10,7 @@
 #include "boundary_fields/summaries.h"
 #include "check_reports/check_report.h"
 #include "common/backend.h"
+#include "medial_vk/analysis.h"
 #include "medial_vk/certify.h"
 #include "medial_vk/context.h"
 #include "medial_vk/fatness.h"
@@ -116,5 +117,12 @@ struct RunRecord {
   std::string picture_drawn_by;      ///< Empty: no picture was drawn.
   std::optional<CheckReport> check;  ///< Of --check.
 };
+
+/// Takes the results of an analysis into the record of its run. Options, volumes, times and the medial mesh, which the
+/// tool records in steps of their own, are left to the caller.
+void record_analysis(const Analysis& analysis, RunRecord& record);
+
+/// Of the union of the balls of one side.
+UnionRecord record_union(const Significance& significance);
 
 }  // namespace medial_vk

@@ -207,5 +207,21 @@ TEST(ThicknessKinds, RefuseAnglesOutOfOrder) {
   EXPECT_FALSE(measured(std::nan(""), 0.1));
 }
 
+// Few cells of directions around such a point need a distance: they were divided until memory did not suffice.
+TEST(ThicknessInside, FewDistancesEndTheSearchAtAPointFarFromTheBoundary) {
+  const IndexedMesh mesh = indexed(prepare_mesh(make_torus(1, 0.4, 12, 8)).value());
+  const std::vector<Point> points = {{0.91602537, 0.22605296, 0.30151356}, {0.91602537, -0.22605296, 0.30151356}};
+  ThicknessOptions options;
+  options.width = 0.1;
+  const std::vector<Thickness> all = measure_thickness(mesh, points, options).value();
+  options.queries = 50;
+  const std::vector<Thickness> few = measure_thickness(mesh, points, options).value();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_LE(few[i].diameter.lower, all[i].diameter.upper);
+    EXPECT_LE(all[i].diameter.lower, few[i].diameter.upper);
+    EXPECT_GT(few[i].diameter.lower, 0.5);
+  }
+}
+
 }  // namespace
 }  // namespace medial_vk::test
