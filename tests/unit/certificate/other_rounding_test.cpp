@@ -122,13 +122,13 @@ std::vector<float> make_specials(ContextImpl& context, std::span<const std::uint
   const ProgramKey program = {.shader = "make_specials",
                               .storage_buffers = 1,
                               .texel_buffers = 0,
-                              .push_constant_bytes = 3 * sizeof(float),
+                              .push_constant_bytes = 4 * sizeof(float),
                               .workgroup_size = 1,
                               .constants = {}};
   const auto ran = run_commands(context, [&](Recorder& recorder) {
     const BufferRange buffers[] = {output.range()};
-    const float zero_tiny_huge[] = {0.0f, 0x1p-126f, 0x1p126f};
-    recorder.dispatch(program, buffers, {}, bytes_of(zero_tiny_huge), 1);
+    const float numbers[] = {0.0f, 0x1p-126f, 0x1p126f, 0.0f};
+    recorder.dispatch(program, buffers, {}, bytes_of(numbers), 1);
     recorder.barrier_to_host();
     return recorder.status();
   });
