@@ -5,21 +5,23 @@
 #include <limits>
 
 #include "base/point_ops.h"
-#include "bvh/nearby_triangles.h"
 
 namespace medial_vk {
 
-void Slider::find_contacts(const Ball& ball, double reach) {
-  contacts_.clear();
-  gather_within(solid_.bvh(), ball.centre, ball.radius + reach, nearby_);
-  std::vector<std::uint32_t> one(1);
-  for (const std::uint32_t position : nearby_) {
-    one[0] = position;
-    const BvhHit hit = closest_of(solid_.bvh(), ball.centre, one);
-    const double distance = std::sqrt(hit.squared_distance);
-    if (distance > ball.radius + reach || distance == 0) continue;
-    contacts_.push_back({(1 / distance) * (ball.centre - hit.point), distance - ball.radius});
-  }
+/// False if the point is the ball's centre.
+bool Slider::add_contact(const Ball& ball, const Point& at) {
+  const Point away = ball.centre - at;
+  const double distance = length(away);
+  if (!(distance > 0)) return false;
+  contacts_.push_back({at, (1 / distance) * away, distance - ball.radius});
+  return true;
+}
+
+/// The greatest growth of the radius that the contacts permit after a motion, to first order.
+double Slider::growth(const Point& move) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Contact& contact : contacts_) least = std::min(least, contact.gap + dot(contact.away, move));
+  return least;
 }
 
 /// Moving the centre by d lets the radius grow by the least of gap_k + away_k . d, which never exceeds the limit by the
@@ -55,18 +57,38 @@ Point Slider::average_of_contacts(const Exposure& exposure, double pace, double 
   return average;
 }
 
-Point Slider::direction(const Ball& ball, const Exposure& exposure, double step) {
+/// Of all points of the boundary, few limit a step: those that the ball would meet first. They are found one by one, as
+/// the nearest point of where the step for the points known so far leads (cutting planes).
+Point Slider::direction(const Ball& ball, const Exposure& exposure, double step, std::vector<Point>& touched) {
+  constexpr int kMostPoints = 20;
+  constexpr double kAccuracy = 1e-3;  // of the radius after the step, in steps
   if (!(exposure.area > 0)) return {};
-  find_contacts(ball, 2 * step);
-  if (contacts_.empty()) return {};
+  contacts_.clear();
+  for (const Point& at : touched) add_contact(ball, at);
+  if (!add_contact(ball, solid_.closest(ball.centre).point)) return {};
   // The ascent is seldom longer than a third of the area: such a step would have the full length.
   const double pace = step / (0.3 * exposure.area);
-  const Point average = average_of_contacts(exposure, pace, 1e-9 * step);
-  Point move = pace * (exposure.vector + exposure.area * average);
-  const double size = length(move);
-  if (size <= 1e-6 * step) return {};
-  if (size > step) move = (step / size) * move;
-  return move;
+  Point move{};
+  double size = 0;
+  for (int n = 0; n < kMostPoints; ++n) {
+    const Point average = average_of_contacts(exposure, pace, 1e-9 * step);
+    move = pace * (exposure.vector + exposure.area * average);
+    size = length(move);
+    if (size > step) move = (step / size) * move;
+    const double expected = growth(move);
+    if (!add_contact(ball, solid_.closest(ball.centre + move).point)) break;
+    if (contacts_.back().gap + dot(contacts_.back().away, move) >= expected - kAccuracy * step) break;
+  }
+  remember(touched);
+  return size <= 1e-6 * step ? Point{} : move;
+}
+
+/// The contacts that the last step rests on, and those that were found after it.
+void Slider::remember(std::vector<Point>& touched) const {
+  touched.clear();
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    if (k >= weights_.size() || weights_[k] > 0) touched.push_back(contacts_[k].at);
+  }
 }
 
 }  // namespace medial_vk

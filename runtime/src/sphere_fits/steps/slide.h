@@ -15,22 +15,24 @@ class Slider {
   explicit Slider(const Solid& solid) : solid_(solid) {}
 
   /// The motion of the centre, at most by `step`, with the greatest gain of the union to first order, where the
-  /// boundary within reach determines the radius. Zero if no direction gains anything.
-  Point direction(const Ball& ball, const Exposure& exposure, double step);
+  /// boundary determines the radius. Zero if no direction gains anything. `touched`: points of the boundary that may
+  /// limit the ball, those of its last step for instance; replaced by those that limit this one.
+  Point direction(const Ball& ball, const Exposure& exposure, double step, std::vector<Point>& touched);
 
  private:
   /// A point of the boundary: the ball's centre lies `gap` + radius from it, along the unit vector `away`.
   struct Contact {
-    Point away;
+    Point at, away;
     double gap;
   };
-  void find_contacts(const Ball& ball, double reach);
+  bool add_contact(const Ball& ball, const Point& at);
+  double growth(const Point& move) const;
+  void remember(std::vector<Point>& touched) const;
   Point average_of_contacts(const Exposure& exposure, double pace, double accuracy);
 
   const Solid& solid_;
   std::vector<Contact> contacts_;
   std::vector<double> weights_;
-  std::vector<std::uint32_t> nearby_;
 };
 
 }  // namespace medial_vk

@@ -19,7 +19,8 @@ class SlidingSteps : public BallSteps {
  private:
   std::optional<Ball> propose(const DynamicUnion& balls, std::uint32_t slot, double step) override {
     const Ball& ball = balls.ball(slot);
-    const Point move = slider_.direction(ball, balls.exposure(slot), step);
+    if (slot >= touched_.size()) touched_.resize(slot + 1);
+    const Point move = slider_.direction(ball, balls.exposure(slot), step, touched_[slot]);
     return move == Point{} ? std::nullopt : std::optional(maximal_ball(solid_, ball.centre + move));
   }
 
@@ -35,6 +36,7 @@ class SlidingSteps : public BallSteps {
 
   const Solid& solid_;
   Slider slider_;
+  std::vector<std::vector<Point>> touched_;  // by slot
 };
 
 }  // namespace
