@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <random>
 
 #include "base/point_ops.h"
@@ -146,11 +147,38 @@ TEST(Slider, MovesAlongASlabTowardsWhatIsUncovered) {
   ASSERT_TRUE(balls.add({{5, 5, 0.5}, 0.5}).ok());
   ASSERT_TRUE(balls.add({{5.2, 5, 0.5}, 0.5}).ok());
   Slider slider(slab.solid);
-  const Point move = slider.direction(balls.ball(1), balls.exposure(1), 0.1);
+  std::vector<std::uint32_t> touched;
+  const Point move = slider.direction(balls.ball(1), balls.exposure(1), 0.1, touched);
   EXPECT_GT(move[0], 0.01);
   EXPECT_LE(length(move), 0.1 * (1 + 1e-12));
   EXPECT_NEAR(move[1], 0, 1e-9);
   EXPECT_NEAR(move[2], 0, 1e-9);
+  // Each wide face limits the step.
+  const auto is_wide = [&](double z) {
+    return std::ranges::any_of(touched, [&](std::uint32_t triangle) {
+      const auto& [a, b, c] = slab.solid.mesh().mesh.triangles[triangle];
+      const auto& vertices = slab.solid.mesh().mesh.vertices;
+      return vertices[a][2] == z && vertices[b][2] == z && vertices[c][2] == z;
+    });
+  };
+  EXPECT_TRUE(is_wide(0));
+  EXPECT_TRUE(is_wide(1));
+}
+
+/// Triangles that are remembered from another place of the ball are like any others: they limit the step no more than
+/// the boundary does.
+TEST(Slider, RememberedTrianglesDoNotHinder) {
+  const Shape slab(test::make_box({10, 10, 1}));
+  DynamicUnion balls = std::move(DynamicUnion::build(2, 20)).value();
+  ASSERT_TRUE(balls.add({{5, 5, 0.5}, 0.5}).ok());
+  ASSERT_TRUE(balls.add({{5.2, 5, 0.5}, 0.5}).ok());
+  Slider slider(slab.solid);
+  std::vector<std::uint32_t> none, all(slab.solid.mesh().mesh.triangles.size());
+  std::iota(all.begin(), all.end(), 0u);
+  const Point move = slider.direction(balls.ball(1), balls.exposure(1), 0.1, none);
+  const Point from_all = slider.direction(balls.ball(1), balls.exposure(1), 0.1, all);
+  EXPECT_LT(length(from_all - move), 1e-9);
+  EXPECT_LT(all.size(), slab.solid.mesh().mesh.triangles.size());
 }
 
 TEST(Slider, LeavesABallThatCannotGain) {
@@ -158,7 +186,8 @@ TEST(Slider, LeavesABallThatCannotGain) {
   DynamicUnion balls = std::move(DynamicUnion::build(1, 2)).value();
   ASSERT_TRUE(balls.add({{0.5, 0.5, 0.5}, 0.5}).ok());
   Slider slider(cube.solid);
-  EXPECT_EQ(slider.direction(balls.ball(0), balls.exposure(0), 0.1), (Point{0, 0, 0}));
+  std::vector<std::uint32_t> touched;
+  EXPECT_EQ(slider.direction(balls.ball(0), balls.exposure(0), 0.1, touched), (Point{0, 0, 0}));
 }
 
 TEST(Candidates, LazyChoicesAreTheGreedyOnes) {

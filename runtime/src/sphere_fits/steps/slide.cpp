@@ -5,23 +5,33 @@
 #include <limits>
 
 #include "base/point_ops.h"
+#include "bvh/triangle_distance.h"
 
 namespace medial_vk {
 
-/// False if the point is the ball's centre.
-bool Slider::add_contact(const Ball& ball, const Point& at) {
-  const Point away = ball.centre - at;
-  const double distance = length(away);
+/// False if the centre is on the triangle.
+bool Slider::add_contact(const Ball& ball, std::uint32_t triangle) {
+  const Mesh& mesh = solid_.mesh().mesh;
+  const auto [a, b, c] = mesh.triangles[triangle];
+  const NearestOffset nearest =
+      nearest_on_triangle(ball.centre, {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
+  const double distance = std::sqrt(nearest.squared_distance);
   if (!(distance > 0)) return false;
-  contacts_.push_back({at, (1 / distance) * away, distance - ball.radius});
+  contacts_.push_back({triangle, (-1 / distance) * nearest.offset, distance - ball.radius});
   return true;
 }
 
-/// The greatest growth of the radius that the contacts permit after a motion, to first order.
-double Slider::growth(const Point& move) const {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Contact& contact : contacts_) least = std::min(least, contact.gap + dot(contact.away, move));
-  return least;
+bool Slider::has_contact(std::uint32_t triangle) const {
+  return std::ranges::any_of(contacts_, [&](const Contact& contact) { return contact.triangle == triangle; });
+}
+
+/// True if the contact that was added last limits the growth of the radius after a motion more than all others do, to
+/// first order.
+bool Slider::last_limits(const Point& move) const {
+  const auto growth = [&](const Contact& contact) { return contact.gap + dot(contact.away, move); };
+  const double last = growth(contacts_.back());
+  return std::all_of(contacts_.begin(), contacts_.end() - 1,
+                     [&](const Contact& contact) { return growth(contact) > last; });
 }
 
 /// Moving the centre by d lets the radius grow by the least of gap_k + away_k . d, which never exceeds the limit by the
@@ -57,37 +67,36 @@ Point Slider::average_of_contacts(const Exposure& exposure, double pace, double 
   return average;
 }
 
-/// Of all points of the boundary, few limit a step: those that the ball would meet first. They are found one by one, as
-/// the nearest point of where the step for the points known so far leads (cutting planes).
-Point Slider::direction(const Ball& ball, const Exposure& exposure, double step, std::vector<Point>& touched) {
-  constexpr int kMostPoints = 20;
-  constexpr double kAccuracy = 1e-3;  // of the radius after the step, in steps
+/// Of all triangles, few limit a step: those that the ball would meet first. They are found one by one, as the nearest
+/// one of where the step for those known so far leads (cutting planes).
+Point Slider::direction(const Ball& ball, const Exposure& exposure, double step, std::vector<std::uint32_t>& touched) {
+  constexpr std::size_t kMostContacts = 32;
   if (!(exposure.area > 0)) return {};
   contacts_.clear();
-  for (const Point& at : touched) add_contact(ball, at);
-  if (!add_contact(ball, solid_.closest(ball.centre).point)) return {};
+  for (const std::uint32_t triangle : touched) add_contact(ball, triangle);
+  const std::uint32_t nearest = solid_.closest(ball.centre).triangle;
+  if (!has_contact(nearest) && !add_contact(ball, nearest)) return {};
   // The ascent is seldom longer than a third of the area: such a step would have the full length.
   const double pace = step / (0.3 * exposure.area);
   Point move{};
   double size = 0;
-  for (int n = 0; n < kMostPoints; ++n) {
+  do {
     const Point average = average_of_contacts(exposure, pace, 1e-9 * step);
     move = pace * (exposure.vector + exposure.area * average);
     size = length(move);
     if (size > step) move = (step / size) * move;
-    const double expected = growth(move);
-    if (!add_contact(ball, solid_.closest(ball.centre + move).point)) break;
-    if (contacts_.back().gap + dot(contacts_.back().away, move) >= expected - kAccuracy * step) break;
-  }
+    const std::uint32_t limiting = solid_.closest(ball.centre + move).triangle;
+    if (has_contact(limiting) || !add_contact(ball, limiting)) break;
+  } while (last_limits(move) && contacts_.size() < kMostContacts);
   remember(touched);
   return size <= 1e-6 * step ? Point{} : move;
 }
 
-/// The contacts that the last step rests on, and those that were found after it.
-void Slider::remember(std::vector<Point>& touched) const {
+/// The contacts that the last step rests on, and the one that was found after it.
+void Slider::remember(std::vector<std::uint32_t>& touched) const {
   touched.clear();
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
-    if (k >= weights_.size() || weights_[k] > 0) touched.push_back(contacts_[k].at);
+    if (k >= weights_.size() || weights_[k] > 0) touched.push_back(contacts_[k].triangle);
   }
 }
 

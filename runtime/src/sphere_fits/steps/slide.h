@@ -15,19 +15,22 @@ class Slider {
   explicit Slider(const Solid& solid) : solid_(solid) {}
 
   /// The motion of the centre, at most by `step`, with the greatest gain of the union to first order, where the
-  /// boundary determines the radius. Zero if no direction gains anything. `touched`: points of the boundary that may
-  /// limit the ball, those of its last step for instance; replaced by those that limit this one.
-  Point direction(const Ball& ball, const Exposure& exposure, double step, std::vector<Point>& touched);
+  /// boundary determines the radius. Zero if no direction gains anything. `touched`: triangles that may limit the ball,
+  /// those of its last step for instance; replaced by those that limit this one.
+  Point direction(const Ball& ball, const Exposure& exposure, double step, std::vector<std::uint32_t>& touched);
 
  private:
-  /// A point of the boundary: the ball's centre lies `gap` + radius from it, along the unit vector `away`.
+  /// The point of a triangle that is nearest to the ball's centre: the centre lies `gap` + radius from it, along the
+  /// unit vector `away`.
   struct Contact {
-    Point at, away;
+    std::uint32_t triangle;
+    Point away;
     double gap;
   };
-  bool add_contact(const Ball& ball, const Point& at);
-  double growth(const Point& move) const;
-  void remember(std::vector<Point>& touched) const;
+  bool add_contact(const Ball& ball, std::uint32_t triangle);
+  bool has_contact(std::uint32_t triangle) const;
+  bool last_limits(const Point& move) const;
+  void remember(std::vector<std::uint32_t>& touched) const;
   Point average_of_contacts(const Exposure& exposure, double pace, double accuracy);
 
   const Solid& solid_;

@@ -36,7 +36,7 @@ class SlidingSteps : public BallSteps {
 
   const Solid& solid_;
   Slider slider_;
-  std::vector<std::vector<Point>> touched_;  // by slot
+  std::vector<std::vector<std::uint32_t>> touched_;  // triangles, by slot
 };
 
 }  // namespace
