@@ -7,7 +7,8 @@ nobody's way, and no lock of a file system is relied on. A run takes over what e
 files, which `medial-vk batch` never changes in place.
 
 A mesh at whose work the process ends is tried again, alone. If it then ends the process again, it has failed, and the
-others go on. Where memory or time were short, that is decided by the last attempt, which has most of both.
+others go on. Where memory or time were short, that is decided by the last attempt, which has most of both: --memory is that
+of this attempt, --minutes that of the first one.
 """
 import argparse
 import errno
@@ -62,7 +63,8 @@ class ChunkRun:
             sys.exit(f"there is no plan {self.chunk}/plan-{arguments.key}.json")
         self.names = self.plan["meshes"]
         self.is_last = arguments.attempt >= arguments.last_attempt
-        seconds = 60 * arguments.minutes
+        self.minutes = arguments.minutes * min(arguments.attempt, arguments.last_attempt)
+        seconds = 60 * self.minutes
         megabytes = max(arguments.memory - MEGABYTES_OF_OTHERS, arguments.memory / 2)
         self.process = BatchProcess(megabytes, time.monotonic() + seconds - min(60, seconds / 10))
         self.earlier = self.earlier_runs()
@@ -70,7 +72,7 @@ class ChunkRun:
         self.run = self.chunk / "runs" / name
         self.run.mkdir(parents=True)
         self.about = {"key": arguments.key, "attempt": arguments.attempt, "job": os.environ.get("SLURM_JOB_ID", ""),
-                      "alone": None, "ended": False}
+                      "alone": None, "ended": False, "suspects": []}
         self.tell()
 
     def tell(self):
@@ -111,13 +113,17 @@ class ChunkRun:
         return True
 
     def suspects_of_earlier_jobs(self):
-        """Meshes that were at work when a job ended without a word, with the number of times that each was alone."""
+        """Meshes that ended a process, were at work when time was over, or when a job ended without a word; each with the
+        number of jobs that ended without a word while it was alone."""
         suspects = {}
         for about, folder in self.earlier:
-            if about.get("key") != self.given.key or about.get("ended", True):
+            if about.get("key") != self.given.key:
                 continue
-            for name in [name for name, row in Table(folder).rows.items() if row.state in AT_WORK]:
-                suspects[name] = suspects.get(name, 0) + (about.get("alone") == name)
+            has_ended = about.get("ended", True)
+            at_work = [] if has_ended else [name for name, row in Table(folder).rows.items() if row.state in AT_WORK]
+            for name in dict.fromkeys([*about.get("suspects", []), *at_work]):
+                was_alone = not has_ended and about.get("alone") == name and name in at_work
+                suspects[name] = suspects.get(name, 0) + was_alone
         return suspects
 
     # ---- Runs of the program.
@@ -147,11 +153,13 @@ class ChunkRun:
         ends_without_mesh = 0
         while names := [name for name in pending if name not in suspects]:
             end = self.batch(names)
-            if end.cause in ("stopped", "time"):
-                self.leave(end)
-            if end.code in BATCH_ENDS_WELL:
+            if end.code in BATCH_ENDS_WELL and end.cause is None:
                 return
             found = [name for name in self.at_work() if name not in suspects]
+            if end.cause != "stopped":
+                self.about["suspects"] += found
+            if end.cause in ("stopped", "time"):
+                self.leave(end)
             if not end.is_death() and end.cause is None:
                 self.give_up(f"medial-vk batch ended with {end.code}")
             print(f"{', '.join(map(repr, found)) or 'no mesh'} at work: {end.reason()}", flush=True)
@@ -165,7 +173,7 @@ class ChunkRun:
             return self.fail(name, f"{jobs_ended} jobs ended while it was at work alone")
         self.about["alone"] = name
         self.tell()
-        deaths = 0
+        deaths, begin = 0, time.monotonic()
         while True:
             end = self.batch([name])
             if end.code in BATCH_ENDS_WELL and end.cause is None:
@@ -173,9 +181,11 @@ class ChunkRun:
             if end.cause == "stopped":
                 self.leave(end)
             if end.cause in ("time", "memory"):
-                if not self.is_last:
+                # Where others took most of the time of this job, the next one begins with this mesh.
+                had_time = end.cause == "memory" or time.monotonic() - begin > 30 * self.minutes
+                if not self.is_last or not had_time:
                     self.leave(end)
-                return self.fail(name, f"it needs more than {self.given.minutes:g} minutes" if end.cause == "time" else
+                return self.fail(name, f"it needs more than {self.minutes:g} minutes" if end.cause == "time" else
                                  f"it needs more than {self.given.memory} MB of memory")
             if not end.is_death():
                 self.give_up(f"medial-vk batch ended with {end.code}")
