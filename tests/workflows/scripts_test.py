@@ -76,6 +76,22 @@ class PlanOfFiles(Folder):
         self.assertEqual(self.keys()[1], beside)
 
 
+    def test_a_record_without_its_run_is_none(self):
+        (self.folder / "in").mkdir()
+        (self.folder / "in/a.obj").write_text(torus(1))
+        key, chunks = self.keys()
+        chunk = self.folder / "out/.workflow/chunks/000000"
+        record = chunk / f"done-{chunks['000000']}.json"
+        (chunk / "runs/one").mkdir(parents=True)
+        (chunk / "runs/one/batch.csv").touch()
+        record.write_text('{"run": "one"}')
+        self.keys()
+        self.assertTrue(record.exists())
+        (chunk / "runs/one/batch.csv").unlink()
+        self.assertEqual(self.keys()[0], key)
+        self.assertFalse(record.exists())
+
+
 class TableOfBatch(Folder):
     def test_lines_are_those_of_the_program(self):
         (self.folder / "in").mkdir()
@@ -240,7 +256,7 @@ class Slurm(Folder):
 
     def call(self, name, *arguments):
         environment = {**os.environ, "PATH": f"{self.folder}/bin:{os.environ['PATH']}"}
-        result = subprocess.run([sys.executable, PROFILE / name, *arguments], cwd=self.folder, env=environment,
+        result = subprocess.run([PROFILE / name, *arguments], cwd=self.folder, env=environment,
                                 capture_output=True, text=True, check=False)
         self.assertEqual(result.returncode, 0, result.stderr)
         return result.stdout.strip()

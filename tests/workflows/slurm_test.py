@@ -146,7 +146,7 @@ def wait_for_jobs(slurm, run):
 
 
 def test(folder, given):
-    work = WorkflowFolder(folder, given.medial_vk, "--resolution 12 --sheet-curve .csv --html", given.killing_library)
+    work = WorkflowFolder(folder, given.medial_vk, "--resolution 12 --sheet-curve .csv", given.killing_library)
     killers = KILLERS[:2]
     failures = write_meshes(work.meshes, given.meshes, given.seed, killers)
     killers = {name for name in failures if name.rsplit("/", 1)[-1] in killers}

@@ -54,8 +54,10 @@ class End:
 class BatchProcess:
     """Runs commands one after the other. After stop() the one at work ends, and no other begins."""
 
-    def __init__(self, megabytes, end_time):
+    def __init__(self, megabytes, end_time, threads):
         self._megabytes, self._end_time = megabytes, end_time
+        # Lavapipe would take all cores of a machine that other jobs share.
+        self._environment = {"LP_NUM_THREADS": str(threads), **os.environ}
         self._process, self.stopped = None, False
 
     def stop(self):
@@ -65,7 +67,8 @@ class BatchProcess:
         """`names` are the lines of its standard input."""
         with open(log, "ab") as messages:
             self._process = subprocess.Popen(command, cwd=folder, stdin=subprocess.PIPE, stdout=messages,
-                                             stderr=messages, preexec_fn=end_with_parent)
+                                             stderr=messages, preexec_fn=end_with_parent,
+                                             env=self._environment)
             try:
                 self._process.stdin.write(names)
                 self._process.stdin.close()

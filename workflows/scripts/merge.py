@@ -58,8 +58,9 @@ def remove_others(state, chunks, runs, key):
         for file in folder.glob("*.json"):
             if file.name not in (f"plan-{of_chunk}.json", f"done-{of_chunk}.json"):
                 file.unlink(missing_ok=True)
+        record = read_json(folder / f"done-{of_chunk}.json") or {}  # a second copy of its job may have ended meanwhile
         for run in (folder / "runs").iterdir():
-            if run.name not in kept:
+            if run.name not in kept and run.name != record.get("run"):
                 shutil.rmtree(run, ignore_errors=True)
     for pattern in ("plan-*.json", "merged-*.json", "all-done-*", "folders-*.txt"):
         for file in state.glob(pattern):

@@ -89,6 +89,14 @@ def assign(earlier, states, most, most_bytes):
     return {number: names for number, names in chunks.items() if names}
 
 
+def forget_lost_results(folder, key):
+    """A record whose run is gone is none: its chunk runs again."""
+    file = folder / f"done-{key}.json"
+    record = read_json(file)
+    if record is not None and not (folder / "runs" / record["run"] / "batch.csv").exists():
+        file.unlink(missing_ok=True)
+
+
 def make_plan(config):
     """Writes the plan and returns its key."""
     options, output = options_of(config), pathlib.Path(str(config["output"]))
@@ -112,6 +120,7 @@ def make_plan(config):
             keys[number] = digest_of([wanted, [states[name] for name in names], str(config.get("verify", ""))])
             folder = state / "chunks" / number
             folder.mkdir(parents=True, exist_ok=True)
+            forget_lost_results(folder, keys[number])
             if not (folder / f"plan-{keys[number]}.json").exists():
                 write_json(folder / f"plan-{keys[number]}.json", wanted)
         key = digest_of(keys)

@@ -66,7 +66,7 @@ class ChunkRun:
         self.minutes = arguments.minutes * min(arguments.attempt, arguments.last_attempt)
         seconds = 60 * self.minutes
         megabytes = max(arguments.memory - MEGABYTES_OF_OTHERS, arguments.memory / 2)
-        self.process = BatchProcess(megabytes, time.monotonic() + seconds - min(60, seconds / 10))
+        self.process = BatchProcess(megabytes, time.monotonic() + seconds - min(60, seconds / 10), arguments.threads)
         self.earlier = self.earlier_runs()
         name = f"{time.strftime('%Y%m%dT%H%M%S', time.gmtime())}-{socket.gethostname()}-{os.getpid()}-{os.urandom(4).hex()}"
         self.run = self.chunk / "runs" / name
