@@ -4,9 +4,9 @@ Nothing needs root, and nothing outlives the process that starts it: daemons sta
 what they leave behind becomes a child of that process (PR_SET_CHILD_SUBREAPER).
 """
 import ctypes
-import getpass
 import os
 import pathlib
+import pwd
 import shutil
 import signal
 import socket
@@ -133,7 +133,7 @@ class Cluster:
         raise RuntimeError("the cluster does not start:\n" + self.logs())
 
     def write_configuration(self):
-        host, user = socket.gethostname().split(".")[0], getpass.getuser()
+        host, user = socket.gethostname().split(".")[0], pwd.getpwuid(os.geteuid()).pw_name
         controller, *ports = free_ports(1 + len(self.nodes))
         folder = self.folder
         text = f"""ClusterName=loopback

@@ -71,9 +71,9 @@ class WorkflowFolder:
         failed = {name for name, row in rows.items() if row.state != "done"}
         check(failed == set(failures), f"failed: {sorted((name, rows[name].error) for name in failed ^ set(failures))[:5]}")
         for name, row in rows_alone.items():
-            mine = {column: cell for column, cell in rows[name]._cells.items() if column not in TIMES}
+            mine = {column: cell for column, cell in rows[name].cells.items() if column not in TIMES}
             for column, cell in mine.items():
-                check(row._cells[column] == cell, f"{name}: {column} is {cell}, alone {row._cells[column]}")
+                check(row.cells[column] == cell, f"{name}: {column} is {cell}, alone {row.cells[column]}")
         files, files_alone = files_below(self.results), files_below(alone)
         own = {TABLE, "failures.csv", ".medial-vk.lock", *({"batch.html"} if "--html" in self.options else ())}
         check(set(files) - own == set(files_alone) - own,

@@ -47,14 +47,23 @@ def check_count(meshes, rows):
                  f"{len(others)} more, such as {others[:1]}, {len(twice)} planned twice")
 
 
+def remove_parts(folder):
+    """Files of processes that were killed before they renamed them."""
+    for file in folder.glob(".*.part"):
+        file.unlink(missing_ok=True)
+
+
 def remove_others(state, chunks, runs, key):
     """What no result of this plan comes from. A job that should have ended may still write there, and fails."""
     kept = {run.name for run in runs}
+    for folder in (state.parent, state):
+        remove_parts(folder)
     for folder in (state / "chunks").iterdir():
         of_chunk = chunks.get(folder.name)
         if of_chunk is None:
             shutil.rmtree(folder, ignore_errors=True)
             continue
+        remove_parts(folder)
         for file in folder.glob("*.json"):
             if file.name not in (f"plan-{of_chunk}.json", f"done-{of_chunk}.json"):
                 file.unlink(missing_ok=True)

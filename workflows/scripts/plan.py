@@ -21,7 +21,11 @@ FORMAT = 1
 
 def options_of(config):
     options = config["options"]
-    return shlex.split(options) if isinstance(options, str) else [str(option) for option in options]
+    options = shlex.split(options) if isinstance(options, str) else [str(option) for option in options]
+    for name in ("-o", "--output", "--threads"):
+        if any(option == name or option.startswith(f"{name}=") for option in options):
+            sys.exit(f"options: {name} is a setting of the workflow, not an option")
+    return options
 
 
 def run_tool(arguments):

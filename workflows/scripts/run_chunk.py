@@ -227,6 +227,8 @@ class ChunkRun:
         if missing or set(table.rows) != set(self.names):
             self.give_up(f"the table lacks {missing[:1]}")
         write_table(self.run, table.header, [table.rows[name].line for name in self.names])
+        for file in [*self.run.rglob(".medial-vk.*"), *self.run.glob(".*.part")]:  # of processes that were killed
+            file.unlink(missing_ok=True)
         self.about.update(ended=True, alone=None)
         self.tell()
         failed = sum(table.rows[name].state == "failed" for name in self.names)

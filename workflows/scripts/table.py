@@ -38,14 +38,14 @@ class Row:
 
     def __init__(self, columns, line):
         self.line = line
-        self._cells = dict(zip(columns, split_line(line)))
-        self.name = text_of(self._cells["name"])
-        self.state = text_of(self._cells["state"])
-        self.error = text_of(self._cells["error"])
+        self.cells = dict(zip(columns, split_line(line)))
+        self.name = text_of(self.cells["name"])
+        self.state = text_of(self.cells["state"])
+        self.error = text_of(self.cells["error"])
 
     def files(self):
         """The names of its files in the folder of the table."""
-        return [self.name + ending for ending in text_of(self._cells["files"]).split()]
+        return [self.name + ending for ending in text_of(self.cells["files"]).split()]
 
 
 class Table:

@@ -81,22 +81,32 @@ bool is_same_file(const std::string& from, const std::string& to) {
 }
 
 /// Neither file is ever written to in place, so that both names of it stay whole. A file system without links gets a
-/// copy.
-Status link_or_copy(const std::string& from, const std::string& to) {
+/// copy. A link cannot replace a file, which a rename does at once: until then it has the name `temporary`.
+Status link_or_copy(const std::string& from, const std::string& to, const std::string& temporary) {
   if (is_same_file(from, to)) return {};
-  // A link cannot replace a file, which a rename does at once.
-  const std::string temporary =
-      fmt::format("{}/.medial-vk.{:08x}", fs::path(to).parent_path().string(), std::random_device()());
   if (::link(from.c_str(), temporary.c_str()) == 0) {
     if (::rename(temporary.c_str(), to.c_str()) == 0) return {};
     const int reason = errno;
     ::unlink(temporary.c_str());
-    return Error{kCannotWrite, fmt::format("cannot write {}: {}", to, std::generic_category().message(reason))};
+    if (reason != EXDEV) {
+      return Error{kCannotWrite, fmt::format("cannot write {}: {}", to, std::generic_category().message(reason))};
+    }
   }
   Result<std::string> bytes = read_table(from);
   if (!bytes) return bytes.error();
   const OutputFile file = {to, std::move(bytes).value()};
   return write_files({&file, 1});
+}
+
+constexpr std::string_view kTemporary = ".medial-vk.link.";
+
+/// Of merges that were killed.
+void remove_temporary_links(const std::string& folder) {
+  std::error_code error;
+  fs::directory_iterator at(folder, error);
+  for (const fs::directory_iterator end; !error && at != end; at.increment(error)) {
+    if (at->path().filename().string().starts_with(kTemporary)) ::unlink(at->path().c_str());
+  }
 }
 
 class Merge {
@@ -113,6 +123,7 @@ class Merge {
     for (const BatchRow& row : before.value().rows) earlier_.emplace(row[BatchColumn::kName], row);
     if (Status status = check_files(); !status) return status;
     if (Status status = begin(); !status) return status;
+    remove_temporary_links(options_.output);
     for (const auto& [name, row] : earlier_) {
       if (!of_name_.contains(name)) remove_results(folder_.path_of(name), row[BatchColumn::kFiles]);
     }
@@ -217,7 +228,7 @@ class Merge {
     }
     fs::create_directories(fs::path(to).parent_path(), error);  // link_or_copy() tells what is wrong
     for (std::size_t i = 0; i < targets.size(); ++i) {
-      if (Status status = link_or_copy(sources[i], targets[i]); !status) return status;
+      if (Status status = link_or_copy(sources[i], targets[i], temporary_); !status) return status;
     }
     return {};
   }
@@ -252,6 +263,7 @@ class Merge {
   std::vector<Merged> meshes_;
   std::unordered_map<std::string, std::size_t> of_name_;  ///< The number in meshes_.
   std::unordered_map<std::string, BatchRow> earlier_;     ///< By name: what the folder had before.
+  const std::string temporary_ = folder_.path_of(fmt::format("{}{:08x}", kTemporary, std::random_device()()));
   Stopwatch whole_;
 };
 

@@ -35,9 +35,8 @@ Output:
 Runs that share the work:
       --list            only print the meshes, as a list for this command has
                         them, from the FOLDER or from the folder of the LIST
-      --merge           inputs are folders OUT of earlier runs, or a .txt with
-                        one in each line: one table, one page, and links to
-                        the files, or copies
+      --merge           inputs are folders OUT of runs, or a .txt that lists
+                        them: one table, one page, links to files or copies
 
 Files of each mesh, by an ending such as .png; medial-vk --help describes them:
       --report .json    MESH.report.json

@@ -99,6 +99,7 @@ TEST_F(BatchMerge, WhatNoPartHasAnyLongerIsRemoved) {
   ASSERT_EQ(run_part("a.obj\nb.obj\n", "parts/0", {"--report", ".json"}).exit_code, 0);
   ASSERT_EQ(run_part("c.obj\n", "parts/1").exit_code, 0);
   write("out/b.obj.notes.txt", "of the user");
+  write("out/.medial-vk.link.00000001", "of a merge that was killed");
   ASSERT_EQ(merge({"parts/0", "parts/1", "-o", "out"}).exit_code, 0);
   const fs::file_time_type before = time_of("out/c.obj.medial.ply");
   ASSERT_TRUE(exists("out/b.obj.report.json"));
@@ -111,6 +112,9 @@ TEST_F(BatchMerge, WhatNoPartHasAnyLongerIsRemoved) {
   EXPECT_TRUE(exists("out/a.obj.medial.ply"));
   EXPECT_TRUE(exists("out/b.obj.notes.txt"));
   EXPECT_EQ(time_of("out/c.obj.medial.ply"), before);
+  for (const fs::directory_entry& entry : fs::directory_iterator(path("out"))) {
+    EXPECT_FALSE(entry.path().filename().string().starts_with(".medial-vk.link")) << entry;
+  }
 }
 
 TEST_F(BatchMerge, LinesWithoutResultsAreFailures) {
