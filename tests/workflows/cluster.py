@@ -194,9 +194,9 @@ MinJobAge=4
     def processes_of_node(self, node):
         """What its jobs have started, and the steps that watch them."""
         of = parents()
-        wanted = (f"SLURMD_NODENAME={node}".encode(), f"SLURM_CONF={self.folder}/slurm.conf".encode())
+        requested = (f"SLURMD_NODENAME={node}".encode(), f"SLURM_CONF={self.folder}/slurm.conf".encode())
         jobs = {process for process in of
-                if set(wanted) <= set(read(pathlib.Path(f"/proc/{process}/environ")).split(b"\0"))}
+                if set(requested) <= set(read(pathlib.Path(f"/proc/{process}/environ")).split(b"\0"))}
         steps = {of[process] for process in jobs if b"slurmstepd" in read(pathlib.Path(f"/proc/{of[process]}/comm"))}
         return jobs | steps
 

@@ -211,7 +211,7 @@ class Chunk(Folder):
         return False
 
     # Slurm has put a job into the queue again, and its first copy still runs.
-    def test_two_runs_at_once_are_in_nobodys_way(self):
+    def test_runs_at_once_do_not_interfere(self):
         self.plan([f"{i:02}.obj" for i in range(12)])
         both = [self.start(), self.start(), self.start()]
         for process in both:
@@ -288,7 +288,7 @@ class Slurm(Folder):
         (self.folder / ".snakemake/slurm/7").write_text("1\n")
         self.assertEqual(self.call("status", "7"), "failed")
 
-    def test_one_answer_is_for_many_jobs_and_new_ones_are_asked_for(self):
+    def test_one_answer_is_for_many_jobs_but_not_for_new_ones(self):
         self.queue(*(f"{job}|RUNNING|None" for job in range(10)))
         for job in range(10):
             self.assertEqual(self.call("status", str(job)), "running")

@@ -96,7 +96,7 @@ class Run:
             self.snakemake.wait()
         return True
 
-    def look_after(self):
+    def keep_running(self):
         """What was killed comes back; Snakemake is started again until it ends well. True: it has."""
         now = time.monotonic()
         for back in [back for back in self.returns if back[0] <= now]:
@@ -117,7 +117,7 @@ class Run:
         self.start_snakemake()
         waiting = list(failures)
         next_time = time.monotonic() + 8  # the first jobs run
-        while not self.look_after():
+        while not self.keep_running():
             check(time.monotonic() < end, "the workflow does not end:\n" + self.slurm.logs())
             if waiting and time.monotonic() >= next_time:
                 kind, pause, target, away = waiting[0]

@@ -55,9 +55,9 @@ class WorkflowFolder:
         shutil.rmtree(folder, ignore_errors=True)
         names = subprocess.run([self.real_program, "batch", "--list", "meshes", "-o", "alone"], cwd=self.folder,
                                stdout=subprocess.PIPE, check=True).stdout.decode().splitlines()
-        wanted = "".join(f"{name}\n" for name in names if name not in without)
+        requested = "".join(f"{name}\n" for name in names if name not in without)
         code = subprocess.run([self.real_program, "batch", "-q", *self.options.split(), "-", "-o", folder],
-                              input=wanted.encode(), cwd=self.meshes, stderr=subprocess.DEVNULL, check=False).returncode
+                              input=requested.encode(), cwd=self.meshes, stderr=subprocess.DEVNULL, check=False).returncode
         check(code in (0, 9), f"the batch alone ended with {code}")
         return folder, set(names)
 

@@ -12,7 +12,7 @@ PR_SET_PDEATHSIG = 1
 
 
 def end_with_parent():
-    """If the process that watches is killed, nobody waits for this one."""
+    """If the process that watches is killed, this one ends, too."""
     ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
 
 

@@ -20,11 +20,11 @@ def runs_of(state, chunks):
     runs, meshes = [], []
     for number, key in chunks.items():
         folder = state / "chunks" / number
-        record, wanted = read_json(folder / f"done-{key}.json"), read_json(folder / f"plan-{key}.json")
-        if record is None or wanted is None:
+        record, requested = read_json(folder / f"done-{key}.json"), read_json(folder / f"plan-{key}.json")
+        if record is None or requested is None:
             sys.exit(f"chunk {number} has no record of its end")
         runs.append(folder / "runs" / record["run"])
-        meshes += wanted["meshes"]
+        meshes += requested["meshes"]
     return runs, meshes
 
 

@@ -119,14 +119,14 @@ def make_plan(config):
         write_json(state / "plan.json", {"format": FORMAT, "chunks": chunks})
         keys = {}
         for number, names in chunks.items():
-            wanted = {"format": FORMAT, "program": program, "version": version, "options": options, "base": base,
+            requested = {"format": FORMAT, "program": program, "version": version, "options": options, "base": base,
                       "meshes": names}
-            keys[number] = digest_of([wanted, [states[name] for name in names], str(config.get("verify", ""))])
+            keys[number] = digest_of([requested, [states[name] for name in names], str(config.get("verify", ""))])
             folder = state / "chunks" / number
             folder.mkdir(parents=True, exist_ok=True)
             forget_lost_results(folder, keys[number])
             if not (folder / f"plan-{keys[number]}.json").exists():
-                write_json(folder / f"plan-{keys[number]}.json", wanted)
+                write_json(folder / f"plan-{keys[number]}.json", requested)
         key = digest_of(keys)
         if not (state / f"plan-{key}.json").exists():
             write_json(state / f"plan-{key}.json",
@@ -140,10 +140,10 @@ def record_of(state, number, key):
 
 def records_of(state, key):
     """The records of all chunks of a plan."""
-    wanted = read_json(f"{state}/plan-{key}.json")
-    if wanted is None:
+    requested = read_json(f"{state}/plan-{key}.json")
+    if requested is None:
         sys.exit(f"there is no plan {state}/plan-{key}.json")
-    return [record_of(state, number, of_chunk) for number, of_chunk in wanted["chunks"].items()]
+    return [record_of(state, number, of_chunk) for number, of_chunk in requested["chunks"].items()]
 
 
 def tell_result(state, key):

@@ -2,8 +2,8 @@
 
 Runs `medial-vk batch` on the meshes of a chunk until each of them is done or has failed, and writes the record
 CHUNK/done-KEY.json. Every run works in a folder of its own, CHUNK/runs/..., which no other run writes to: two runs of one
-chunk, such as a job that Slurm has put into the queue again and its first copy, on a node that does not answer, are in
-nobody's way, and no lock of a file system is relied on. A run takes over what earlier ones have done, by links to their
+chunk, such as a job that Slurm has put into the queue again and its first copy, on a node that does not answer, do not
+interfere, and no lock of a file system is relied on. A run takes over what earlier ones have done, by links to their
 files, which `medial-vk batch` never changes in place.
 
 A mesh at whose work the process ends is tried again, alone. If it then ends the process again, it has failed, and the
@@ -89,12 +89,12 @@ class ChunkRun:
     def take_over(self, suspects):
         """Results, whose meshes are read again to compare their content, and failures of the same key; nothing of
         suspects."""
-        lines, wanted, header = {}, set(self.names) - set(suspects), b""
+        lines, requested, header = {}, set(self.names) - set(suspects), b""
         for about, folder in self.earlier:
             table = Table(folder)
             header = header or table.header
             for name, row in table.rows.items():
-                if name not in wanted or name in lines or table.header != header:
+                if name not in requested or name in lines or table.header != header:
                     continue
                 is_failure = row.state == "failed" and about.get("key") == self.given.key
                 if is_failure and not row.files():
@@ -199,7 +199,7 @@ class ChunkRun:
             return self.fail(name, end.reason())
 
     def fail(self, name, reason):
-        """The line is that of a batch whose mesh has failed; its files, if there are any, are nobody's results."""
+        """The line is that of a batch whose mesh has failed; its files, if there are any, are no results."""
         print(f"{name!r} failed: {reason}", flush=True)
         table = Table(self.run)
         at_work = table.rows.pop(name, None)

@@ -78,7 +78,7 @@ def main():
             print("running")
             return
         state = state or state_in_queue(job, lines)
-    # A job that nobody knows died with its machine.
+    # A job without any trace ended with its machine.
     state = state or state_in_file(job) or state_in_accounts(job) or "NODE_FAIL"
     print("success" if state in ENDED_WELL else "failed" if state in ENDED else "running")
 
