@@ -2,9 +2,14 @@
 // one.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -199,6 +204,59 @@ TEST_F(BatchMerge, AResultThatWouldReplaceAMeshIsRefused) {
   EXPECT_EQ(refused.exit_code, 2) << refused.err;
   EXPECT_THAT(refused.err, HasSubstr("would overwrite the mesh"));
   EXPECT_EQ(bytes_of("in/a.obj.medial.ply"), before);
+}
+
+TEST_F(BatchMerge, OnAnotherFileSystemResultsAreCopied) {
+  struct stat here = {}, there = {};
+  const bool has_other = ::stat("/dev/shm", &there) == 0 && ::access("/dev/shm", W_OK) == 0;
+  if (::stat(path("").c_str(), &here) != 0 || !has_other || here.st_dev == there.st_dev) {
+    GTEST_SKIP() << "/dev/shm is no other file system";
+  }
+  write_box("in/a.obj", 0.5);
+  ASSERT_EQ(run_part("a.obj\n", "parts/0").exit_code, 0);
+  const std::string points = bytes_of("parts/0/a.obj.medial.ply");
+  const std::string other = "/dev/shm/medial_vk_merge_" + std::to_string(::getpid());
+  const ToolResult merged = merge({"parts/0", "-o", other});
+  const std::string copied =
+      fs::exists(other + "/a.obj.medial.ply") ? test::read_file(other + "/a.obj.medial.ply") : "";
+  fs::remove_all(other);
+  EXPECT_EQ(merged.exit_code, 0) << merged.err;
+  EXPECT_EQ(copied, points);
+}
+
+// Two sets of results with the same names become those of the folder in turns.
+TEST_F(BatchMerge, KillsLeaveLinesThatAreTrue) {
+  constexpr int kMeshes = 30, kKills = 100;
+  std::string lines;
+  for (int i = 0; i < kMeshes; ++i) {
+    const std::string name = "folder" + std::to_string(i % 3) + "/" + std::to_string(i) + ".obj";
+    write_box("in/" + name, 0.4 + 0.01 * i);
+    lines += name + "\n";
+  }
+  const std::vector<std::string> sets = {"parts/0", "parts/1"};
+  ASSERT_EQ(run_part(lines, sets[0]).exit_code, 0);
+  ASSERT_EQ(run_part(lines, sets[1], {"--object-angle", "0.3"}).exit_code, 0);
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_EQ(merge({sets[0], "-o", "out", "--html"}).exit_code, 0);
+  const std::chrono::duration<double> whole_merge = std::chrono::steady_clock::now() - begin;
+  for (int i = 0; i < kKills && !HasFailure(); ++i) {
+    SCOPED_TRACE(testing::Message() << "kill " << i);
+    test::Tool tool(call({"batch", "--merge", sets[static_cast<std::size_t>(i % 2)], "-o", "out", "--html"}));
+    std::this_thread::sleep_for(whole_merge * 1.1 * i / kKills);
+    tool.send(SIGKILL);
+    tool.wait();
+    for (const BatchRow& row : rows()) {
+      const bool is_second = row[BatchColumn::kOptions].find("--object-angle") != std::string::npos;
+      const std::string file = "/" + row[BatchColumn::kName] + ".medial.ply";
+      EXPECT_TRUE(!row.is_done() || bytes_of("out" + file) == bytes_of(sets[is_second ? 1 : 0] + file)) << file;
+    }
+  }
+  ASSERT_EQ(merge({sets[1], "-o", "out", "--html"}).exit_code, 0);
+  EXPECT_EQ(rows().size(), static_cast<std::size_t>(kMeshes));
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path("out"))) {
+    const std::string name = entry.path().filename().string();
+    EXPECT_FALSE(name.starts_with(".medial-vk.link")) << entry;
+  }
 }
 
 }  // namespace
