@@ -124,13 +124,16 @@ class Chunk(Folder):
     """run_chunk.py on meshes of which some end the process at every try."""
 
     def plan(self, names, options="--resolution 6 --backend cpu"):
-        work = WorkflowFolder(self.folder, MEDIAL_VK, options, KILLING_LIBRARY)
-        work.meshes.mkdir()
+        self.work = WorkflowFolder(self.folder, MEDIAL_VK, options, KILLING_LIBRARY)
+        self.work.meshes.mkdir()
         for i, name in enumerate(names):
-            (work.meshes / name).write_text(torus(i))
-        self.key = plan.make_plan({"meshes": work.meshes, "output": work.results, "medial_vk": work.program, "chunk": 100,
-                                   "chunk_megabytes": 1, "options": options})
-        self.chunk = work.state / "chunks/000000"
+            (self.work.meshes / name).write_text(torus(i))
+        self.plan_of(self.work.meshes, self.work.results)
+
+    def plan_of(self, meshes, results):
+        self.key = plan.make_plan({"meshes": meshes, "output": results, "medial_vk": self.work.program, "chunk": 100,
+                                   "chunk_megabytes": 1, "options": self.work.options})
+        self.chunk = results / ".workflow/chunks/000000"
         (self.chunk_key,) = [record.stem[len("plan-"):] for record in self.chunk.glob("plan-*.json")]
 
     def start(self, attempt=1, memory=2000, minutes=1.0):
@@ -158,6 +161,26 @@ class Chunk(Folder):
                          {"a.obj": "done", "kills-crash.obj": "failed", "kills-crash too.obj": "failed", "z.obj": "done"})
         self.assertIn("SIGSEGV", rows["kills-crash.obj"].error)
         self.assertEqual(self.record()["failed"], 2)
+
+    # Names of absolute paths, and of those that lead upwards, are paths from the root; a name may begin with a blank.
+    def test_names_of_any_kind(self):
+        self.plan(["a.obj", "kills-crash.obj", " b.obj", "-c.obj"])
+        lists = self.folder / "lists"
+        lists.mkdir()
+        (lists / "some.txt").write_text(f"../meshes/a.obj\n{self.folder}/meshes/kills-crash.obj\n")
+        self.assertEqual(self.run_once()[0], 0)
+        self.assertEqual({name: row.state for name, row in self.rows().items()},
+                         {"a.obj": "done", "kills-crash.obj": "failed", " b.obj": "done", "-c.obj": "done"})
+        self.plan_of(lists / "some.txt", self.folder / "other")
+        self.assertEqual(self.run_once()[0], 0)
+        root = str(self.folder.resolve())[1:]
+        self.assertEqual({name: row.state for name, row in self.rows().items()},
+                         {f"{root}/meshes/a.obj": "done", f"{root}/meshes/kills-crash.obj": "failed"})
+        subprocess.run([sys.executable, SOURCE / "workflows/scripts/merge.py", self.folder / "other", self.key], check=True,
+                       stderr=subprocess.DEVNULL)
+        self.assertEqual(set(table.Table(self.folder / "other").rows), set(self.rows()))
+        self.assertTrue((self.folder / f"other/{root}/meshes/a.obj.medial.ply").is_file())
+        self.assertIn("SIGSEGV", (self.folder / "other/failures.csv").read_text())
 
     def test_memory_and_time_are_decided_by_the_last_attempt(self):
         for name, given, word in (("kills-memory.obj", {"memory": 500}, "500 MB"), ("kills-time.obj", {"minutes": 0.03}, "minutes")):

@@ -12,7 +12,7 @@ import subprocess
 import sys
 
 from files import bytes_of, read_json, write_json, write_whole
-from table import TABLE, Table
+from table import TABLE, Table, name_of_line
 
 
 def runs_of(state, chunks):
@@ -24,7 +24,7 @@ def runs_of(state, chunks):
         if record is None or requested is None:
             sys.exit(f"chunk {number} has no record of its end")
         runs.append(folder / "runs" / record["run"])
-        meshes += requested["meshes"]
+        meshes += map(name_of_line, requested["meshes"])
     return runs, meshes
 
 

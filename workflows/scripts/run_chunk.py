@@ -23,7 +23,7 @@ import time
 
 from batch_process import BatchProcess
 from files import bytes_of, read_json, write_json
-from table import AT_WORK, WITH_RESULTS, Table, write_table
+from table import AT_WORK, WITH_RESULTS, Table, name_of_line, write_table
 
 # A mesh that ends its process so often, alone, has failed.
 DEATHS_ALONE = 2
@@ -61,7 +61,8 @@ class ChunkRun:
         self.plan = read_json(self.chunk / f"plan-{arguments.key}.json")
         if self.plan is None:
             sys.exit(f"there is no plan {self.chunk}/plan-{arguments.key}.json")
-        self.names = self.plan["meshes"]
+        self.line_of = {name_of_line(line): line for line in self.plan["meshes"]}
+        self.names = list(self.line_of)
         self.is_last = arguments.attempt >= arguments.last_attempt
         self.minutes = arguments.minutes * min(arguments.attempt, arguments.last_attempt)
         seconds = 60 * self.minutes
@@ -130,11 +131,12 @@ class ChunkRun:
 
     def batch(self, names):
         """Lists leave out blanks at the ends of lines, so that such names are arguments."""
-        in_list = [name for name in names if name == name.strip()]
-        others = [name if os.path.isabs(name) else f"./{name}" for name in names if name != name.strip()]
+        given = [self.line_of[name] for name in names]
+        in_list = [line for line in given if line == line.strip()]
+        others = [line if os.path.isabs(line) else f"./{line}" for line in given if line != line.strip()]
         command = [self.plan["program"], "batch", "-q", *self.plan["options"], "--threads", str(self.given.threads),
                    *(["-"] if in_list else []), *others, "-o", str(self.run)]
-        lines = b"".join(bytes_of(name) + b"\n" for name in in_list)
+        lines = b"".join(bytes_of(line) + b"\n" for line in in_list)
         return self.process.run([bytes_of(word) for word in command], self.plan["base"], lines, self.run / "log")
 
     def settled(self):
@@ -205,7 +207,7 @@ class ChunkRun:
         at_work = table.rows.pop(name, None)
         for file in at_work.files() if at_work else []:
             (self.run / file).unlink(missing_ok=True)
-        file = os.path.realpath(os.path.join(self.plan["base"], name))
+        file = os.path.realpath(os.path.join(self.plan["base"], self.line_of[name]))
         line = table.failed_line(name, file, reason)
         write_table(self.run, table.header, [*(row.line for row in table.rows.values()), line])
 

@@ -33,6 +33,11 @@ def join_cells(cells):
     return b",".join(quoted)
 
 
+def name_of_line(line):
+    """The name in the table of a mesh that a list names so: absolute paths are names from the root."""
+    return line[1:] if line.startswith("/") else line
+
+
 class Row:
     """A line of the table."""
 
