@@ -1,7 +1,7 @@
 """A cluster on loopback: munged, slurmctld and a slurmd for each node, in a temporary folder, with ports of its own.
 
 Nothing needs root, and nothing outlives the process that starts it: daemons stay in the foreground and end with it, and
-what they leave behind becomes a child of that process (PR_SET_CHILD_SUBREAPER).
+what they leave behind becomes a child of that process (PR_SET_CHILD_SUBREAPER). If it is killed, a guard ends the steps of jobs.
 """
 import ctypes
 import os
@@ -11,6 +11,7 @@ import shutil
 import signal
 import socket
 import subprocess
+import sys
 import time
 
 PR_SET_PDEATHSIG, PR_SET_CHILD_SUBREAPER = 1, 36
@@ -90,6 +91,19 @@ def kill_descendants():
         time.sleep(0.05)
 
 
+def has_configuration(process, folder):
+    """Whether it belongs to the cluster in the folder."""
+    return f"SLURM_CONF={folder}/slurm.conf".encode() in read(pathlib.Path(f"/proc/{process}/environ")).split(b"\0")
+
+
+def guard(folder):
+    """Waits for the end of the process that has started it, which holds its standard input open."""
+    sys.stdin.read()
+    while left := [process for process in parents() if has_configuration(process, folder)]:
+        kill(left)
+        time.sleep(0.1)
+
+
 def free_ports(count):
     sockets = [socket.socket() for _ in range(count)]
     for one in sockets:
@@ -112,6 +126,7 @@ class Cluster:
 
     def start(self):
         adopt_orphans()
+        self.guard = subprocess.Popen([sys.executable, __file__, self.folder], stdin=subprocess.PIPE)
         for name in ("state", "log"):
             (self.folder / name).mkdir(parents=True)
         key = self.folder / "munge.key"
@@ -194,9 +209,9 @@ MinJobAge=4
     def processes_of_node(self, node):
         """What its jobs have started, and the steps that watch them."""
         of = parents()
-        requested = (f"SLURMD_NODENAME={node}".encode(), f"SLURM_CONF={self.folder}/slurm.conf".encode())
-        jobs = {process for process in of
-                if set(requested) <= set(read(pathlib.Path(f"/proc/{process}/environ")).split(b"\0"))}
+        name = f"SLURMD_NODENAME={node}".encode()
+        jobs = {process for process in of if has_configuration(process, self.folder) and
+                name in read(pathlib.Path(f"/proc/{process}/environ")).split(b"\0")}
         steps = {of[process] for process in jobs if b"slurmstepd" in read(pathlib.Path(f"/proc/{of[process]}/comm"))}
         return jobs | steps
 
@@ -233,3 +248,7 @@ MinJobAge=4
     def logs(self):
         return "\n".join(f"== {log.name}\n" + log.read_text(errors="replace")[-3000:]
                          for log in sorted((self.folder / "log").iterdir()))
+
+
+if __name__ == "__main__":
+    guard(sys.argv[1])
