@@ -7,7 +7,6 @@ seed decides, at targets that it decides. All is started again until the workflo
 once, with the bytes of a run on one machine, and nothing may be left behind. Exit code 77: Slurm or Snakemake is missing.
 """
 import argparse
-import os
 import pathlib
 import random
 import shutil

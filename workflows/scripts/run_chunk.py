@@ -14,7 +14,6 @@ import argparse
 import errno
 import os
 import pathlib
-import shlex
 import shutil
 import signal
 import socket
