@@ -59,8 +59,8 @@ class Run:
     def processes_of_job(self, target, program_alone):
         jobs = sorted(process for node in self.slurm.nodes for process in self.slurm.processes_of_node(node))
         if program_alone:
-            jobs = [process for process in jobs
-                    if cluster.read(pathlib.Path(f"/proc/{process}/comm")).strip() == b"medial-vk"]
+            name = pathlib.Path(self.work.real_program).name[:15].encode()  # as the kernel keeps it
+            jobs = [process for process in jobs if cluster.read(pathlib.Path(f"/proc/{process}/comm")).strip() == name]
             return [jobs[int(target * len(jobs))]] if jobs else []
         node = self.slurm.nodes[int(target * len(self.slurm.nodes))]
         return sorted(self.slurm.processes_of_node(node))
