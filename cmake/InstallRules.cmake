@@ -36,6 +36,9 @@ if(TARGET medial-vk)
     ${PROJECT_SOURCE_DIR}/docs/medial-vk-doctor.1 ${PROJECT_SOURCE_DIR}/docs/medial-vk-follow.1
     ${PROJECT_SOURCE_DIR}/docs/medial-vk-plane.1 ${PROJECT_SOURCE_DIR}/docs/medial-vk-voronoi.1
     DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  # The workflow for clusters, whose scripts are run from there.
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/workflows DESTINATION ${CMAKE_INSTALL_DATADIR}/medial-vk USE_SOURCE_PERMISSIONS
+    PATTERN __pycache__ EXCLUDE)
 endif()
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(CODE "set(SOURCE_DIR \"${PROJECT_SOURCE_DIR}\")

@@ -95,6 +95,8 @@ def outputs_of(words):
     if program == "node":
         return arguments[2:3]
     if arguments[:1] == ["batch"]:
+        if "--list" in arguments:
+            return []
         folders = [b for a, b in zip(arguments, arguments[1:]) if a in ("-o", "--output")]
         names = ["batch.csv", *(["batch.html"] if "--html" in arguments else [])]
         return [f"{folder}/{name}" for folder in folders for name in names]

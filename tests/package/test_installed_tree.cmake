@@ -32,7 +32,7 @@ endfunction()
 
 run("install" ${CMAKE_COMMAND} --install ${BUILD_DIR} --config ${CONFIG} --prefix ${work}/first)
 file(RENAME ${work}/first ${prefix})  # nothing in it may depend on where it was installed
-foreach(file bin/medial-vk libexec/medial-vk/medial-vk-read-scene include/medial_vk/context.h
+foreach(file bin/medial-vk share/medial-vk/workflows/Snakefile libexec/medial-vk/medial-vk-read-scene include/medial_vk/context.h
     include/medial_vk/extraction.h include/medial_vk/result.h)
   if(NOT EXISTS ${prefix}/${file})
     message(FATAL_ERROR "not installed: ${file}")

@@ -156,7 +156,8 @@ class MeshSearch {
       return Error{ErrorCode::kUsage, fmt::format("the results of {} and {} would have one name, {}",
                                                   meshes_[at->second].file, file, name)};
     }
-    meshes_.push_back({file, name, std::move(real), name == path ? "" : "its name has several lines"});
+    const bool from_root = path != given.lexically_normal().string();
+    meshes_.push_back({file, name, std::move(real), name == path ? "" : "its name has several lines", from_root});
     return {};
   }
 
@@ -168,6 +169,8 @@ class MeshSearch {
 };
 
 }  // namespace
+
+std::string line_of_list(const BatchMesh& mesh) { return mesh.from_root ? "/" + mesh.name : mesh.name; }
 
 std::string real_path(const std::string& path) {
   std::error_code error;

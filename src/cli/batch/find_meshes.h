@@ -14,8 +14,9 @@ struct BatchMesh {
   /// the only input is one, else the path as it was given, or from the root of the file system if it is absolute or
   /// leads upwards. Line breaks are \n and \r in it.
   std::string name;
-  std::string real;   ///< The absolute path of the file, with links followed.
-  std::string fault;  ///< Why it cannot be done; empty: nothing is known.
+  std::string real;        ///< The absolute path of the file, with links followed.
+  std::string fault;       ///< Why it cannot be done; empty: nothing is known.
+  bool from_root = false;  ///< The name is the path from the root of the file system.
 };
 
 /// Inputs are folders, whose meshes are found at any depth and come in the order of their paths; lists, whose names end
@@ -25,6 +26,10 @@ struct BatchMesh {
 /// name, a folder is in `output`, or a line of a list is "-" or a folder; kInvalidMesh if an input does not exist, a
 /// folder or a list is unreadable, or there is no mesh; kInterrupted.
 Result<std::vector<BatchMesh>> find_meshes(const std::vector<std::string>& inputs, const std::string& output);
+
+/// What a list names the mesh by, so that it has the same name as here: from the folder that was searched, or from the
+/// folder of the list; absolute, if the name is the path from the root.
+std::string line_of_list(const BatchMesh& mesh);
 
 /// The absolute path of a file with links followed, as far as it exists.
 std::string real_path(const std::string& path);

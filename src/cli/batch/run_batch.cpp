@@ -18,8 +18,10 @@
 #include "base/stopwatch.h"
 #include "cli/batch/batch_folder.h"
 #include "cli/batch/find_meshes.h"
+#include "cli/batch/merge_batches.h"
 #include "cli/batch/mesh_digest.h"
 #include "cli/batch/mesh_row.h"
+#include "cli/batch/page_file.h"
 #include "cli/batch/result_files.h"
 #include "cli/extract/mesh_run.h"
 #include "cli/extract/wall_run.h"
@@ -36,7 +38,6 @@
 #include "common/tool_errors.h"
 #include "medial_vk/version.h"
 #include "output/atomic_files/atomic_file.h"
-#include "output/batch_page/batch_page.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -55,6 +56,12 @@ std::string without_line_ends(std::string text) {
   std::ranges::replace_if(
       text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
   return text;
+}
+
+Status print_list(std::span<const BatchMesh> meshes) {
+  std::string text;
+  for (const BatchMesh& mesh : meshes) text += line_of_list(mesh) + "\n";
+  return print_result(text);
 }
 
 class BatchRun {
@@ -311,27 +318,13 @@ class BatchRun {
     std::ranges::sort(others, {}, [](const BatchRow& row) { return row[BatchColumn::kName]; });
     std::ranges::move(others, std::back_inserter(rows));
     if (Status status = folder_.replace_table(rows); !status) return status;
-    if (Status status = write_page(std::span(rows).first(meshes_.size())); !status) return status;
+    if (options_.page) {
+      if (Status status = write_page(folder_, std::span(rows).first(meshes_.size())); !status) return status;
+    }
     if (!options_.each.quiet) print_message(batch_summary(failed));
     if (failed == 0) return {};
     return Error{kSomeFailed, fmt::format("{} of {} failed: {} has the reasons", grouped(failed),
                                           counted(meshes_.size(), "mesh", "meshes"), folder_.table_path())};
-  }
-
-  Status write_page(std::span<const BatchRow> rows) const {
-    if (!options_.page) return {};
-    std::vector<BatchCard> cards;
-    cards.reserve(rows.size());
-    for (const BatchRow& row : rows) {
-      const std::string& name = row[BatchColumn::kName];
-      const Options of_mesh = options_of_mesh(options_.each, "", name);
-      BatchCard card = {&row, "", paths_of_results(name, row[BatchColumn::kFiles])};
-      if (std::ranges::find(card.files, of_mesh.picture) != card.files.end()) card.picture = of_mesh.picture;
-      cards.push_back(std::move(card));
-    }
-    const OutputFile page = {folder_.page_path(),
-                             encode_batch_page(cards, fs::path(folder_.table_path()).filename().string())};
-    return write_files({&page, 1});
   }
 
   std::string batch_summary(std::size_t failed) {
@@ -363,8 +356,10 @@ Status run_batch(const std::vector<std::string>& arguments) {
   const Result<BatchOptions> options = parse_batch_options(arguments);
   if (!options) return options.error();
   if (options.value().help) return print_result(batch_help_text());
+  if (options.value().merge) return merge_batches(options.value());
   Result<std::vector<BatchMesh>> meshes = find_meshes(options.value().inputs, options.value().output);
   if (!meshes) return meshes.error();
+  if (options.value().list) return print_list(meshes.value());
   Result<BatchFolder> folder = BatchFolder::open(options.value().output);
   if (!folder) return folder.error();
   return BatchRun(options.value(), std::move(meshes).value(), std::move(folder).value()).run();

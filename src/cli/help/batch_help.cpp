@@ -13,6 +13,8 @@ Usage:
   medial-vk batch [options] LIST.txt -o OUT   a path in each line; "-": standard
                                               input
   medial-vk batch [options] MESH... -o OUT    and any mixture of these
+  medial-vk batch --list [options] FOLDER -o OUT
+  medial-vk batch --merge OUT... -o ALL [--html]
 
 Examples:
   medial-vk batch parts -o results --resolution 80
@@ -29,6 +31,12 @@ Output:
       --volumes         in the table also volume and area of the union of balls
       --html            a page, OUT/batch.html, with a picture and the numbers
                         of each mesh, and the pictures beside the other files
+
+Runs that share the work:
+      --list            only print the meshes, as a list for this command has
+                        them, from the FOLDER or from the folder of the LIST
+      --merge           inputs are folders OUT of runs, or a .txt that lists
+                        them: one table, one page, links to files or copies
 
 Files of each mesh, by an ending such as .png; medial-vk --help describes them:
       --report .json    MESH.report.json

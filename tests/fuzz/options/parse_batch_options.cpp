@@ -12,6 +12,10 @@ void require_usable_batch(const cli::BatchOptions& options) {
   require(!options.inputs.empty(), "there is an input");
   require(!options.output.empty() && options.output != "-", "there is a folder");
   require(std::ranges::count(options.inputs, "-") <= 1, "standard input is read once");
+  if (options.merge) {
+    require(!options.list && options.given.empty(), "results are merged as they are");
+    return;
+  }
   require(!options.page || !options.each.picture.empty(), "a page has pictures");
   require(!options.each.each && options.each.html.empty(), "a mesh has no parts and no page of its own");
   require(options.each.action == cli::Action::kExtract, "meshes are searched");

@@ -7,6 +7,7 @@
 #include <array>
 #include <cctype>
 #include <string_view>
+#include <utility>
 
 #include "cli/options/declarations.h"
 #include "cli/options/options_of_meshes.h"
@@ -36,8 +37,8 @@ constexpr FileKind kFileKinds[] = {
 };
 
 /// Options that change no result, and those of this command alone, which `BatchOptions` compares by itself.
-constexpr std::array<std::string_view, 6> kNotOfResults = {"--output", "--html",    "--threads",
-                                                           "--quiet",  "--verbose", "--help"};
+constexpr std::array<std::string_view, 8> kNotOfResults = {"--output",  "--html",  "--list",    "--merge",
+                                                           "--threads", "--quiet", "--verbose", "--help"};
 
 Status check_ending(const char* option, const std::string& ending) {
   const bool is_ending =
@@ -98,6 +99,13 @@ std::string given_options(const CLI::App& app) {
   return text;
 }
 
+/// Results are merged as they are.
+Result<BatchOptions> options_of_merge(BatchOptions options) {
+  if (options.list) return usage_error("--list names meshes, and --merge has results: use one of them");
+  if (options.given.empty()) return options;
+  return usage_error(fmt::format("--merge takes results as they are, without {}", options.given));
+}
+
 }  // namespace
 
 /// The application writes to the options, so both stay together and do not move.
@@ -116,6 +124,8 @@ BatchOptionParser::BatchOptionParser() : declared_(std::make_unique<Declared>())
   add.texts("INPUT", "folders, lists and files", options.inputs);
   add.text("-o,--output", "folder", options.output);
   add.flag("--html", options.page);
+  add.flag("--list", options.list);
+  add.flag("--merge", options.merge);
   add.text("--format", "ending", declared_->format);
   add.flag("--volumes", options.each.volumes);
   declare_shared(add, options.each);
@@ -138,6 +148,7 @@ Result<BatchOptions> BatchOptionParser::parse(const std::vector<std::string>& ar
   if (options.output == "-") return usage_error("-o is a folder: many files cannot go to standard output");
   if (std::ranges::count(options.inputs, "-") > 1) return usage_error("standard input is one list, not several");
   options.given = given_options(declared_->app);
+  if (options.merge) return options_of_merge(std::move(options));
   Options& each = options.each;
   if (options.page && each.picture.empty()) {
     each.picture = ".png";

@@ -15,6 +15,8 @@ struct BatchOptions {
   std::vector<std::string> inputs;  ///< Folders, lists and meshes; "-": a list from standard input.
   std::string output;               ///< A folder.
   bool page = false;                ///< A page with a picture of each mesh.
+  bool list = false;                ///< Print the meshes, and do nothing else.
+  bool merge = false;               ///< Inputs are folders with results, or lists of them: they become one folder.
   Options each;                     ///< Of a mesh with the name kMeshWord: its files are named after it.
   std::string given;  ///< The options that can change results, as they were given, in the order of their declaration.
 
