@@ -23,9 +23,10 @@ struct Exposure {
 /// for every other ball. Volumes are those of measure_ball_union(), under the same conditions for balls.
 class DynamicUnion {
  public:
-  /// For at most `capacity` balls at a time, none with a coordinate or a radius beyond `largest`. Errors: kUsage
-  /// (capacity of 2^30 and more; largest not positive and finite), kOutOfMemory.
-  static Result<DynamicUnion> build(std::uint32_t capacity, double largest);
+  /// For at most `capacity` balls at a time, none with a coordinate or a radius beyond `largest`. `threads`: of the host
+  /// in gains(), at most 16, 0: one per core; no result depends on it. Errors: kUsage (capacity of 2^30 and more;
+  /// largest not positive and finite), kOutOfMemory.
+  static Result<DynamicUnion> build(std::uint32_t capacity, double largest, unsigned threads = 1);
   DynamicUnion(DynamicUnion&&) noexcept;
   DynamicUnion& operator=(DynamicUnion&&) noexcept;
   ~DynamicUnion();
@@ -61,6 +62,8 @@ class DynamicUnion {
 
   /// The increase of the volume of the union by add(). Errors: those of add().
   Result<double> gain(const Ball& ball);
+  /// The increases by each one of these balls alone, in their order. Errors: those of gain().
+  Result<std::vector<double>> gains(std::span<const Ball> balls);
   /// The decrease of the volume of the union by remove(). Errors: those of remove().
   Result<double> loss(std::uint32_t slot);
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -168,6 +169,28 @@ TEST(DynamicUnion, ClearedItIsAsANewOne) {
   for (std::uint32_t slot = 0; slot < 40; ++slot) {
     EXPECT_EQ(kept.exposure(slot).area, fresh.exposure(slot).area);
     EXPECT_EQ(kept.loss(slot).value(), fresh.loss(slot).value());
+  }
+}
+
+/// The gains of several balls are those of each one, on any number of threads; on a grid, ties are frequent.
+TEST(DynamicUnion, GainsOfSeveralBallsAreThoseOfEach) {
+  std::mt19937 random(5);
+  const auto on_grid = [&] { return 0.25 * static_cast<double>(random() % 5); };
+  std::vector<Ball> some;
+  for (int n = 0; n < 90; ++n) {
+    const double x = on_grid(), y = on_grid(), z = on_grid();
+    some.push_back({{x, y, z}, 0.1 + 0.1 * static_cast<double>(random() % 4)});
+  }
+  for (const unsigned threads : {1u, 3u, 40u}) {
+    SCOPED_TRACE(threads);
+    DynamicUnion balls = std::move(DynamicUnion::build(40, 2, threads)).value();
+    for (std::size_t n = 0; n < 30; ++n) ASSERT_TRUE(balls.add(some[n]).ok());
+    const std::vector<double> gains = balls.gains(some).value();
+    ASSERT_EQ(gains.size(), some.size());
+    for (std::size_t n = 0; n < some.size(); ++n) EXPECT_EQ(gains[n], balls.gain(some[n]).value());
+    EXPECT_GT(*std::ranges::max_element(gains), 0);
+    EXPECT_TRUE(balls.gains({}).value().empty());
+    EXPECT_EQ(balls.gains(std::vector<Ball>{some[0], {{0, 0, 0}, NAN}}).error().code, ErrorCode::kUsage);
   }
 }
 

@@ -2,48 +2,31 @@
 
 #include <algorithm>
 #include <array>
-#include <cfloat>
 #include <cmath>
-#include <functional>
-#include <limits>
 #include <string>
 #include <utility>
 
 #include "ball_unions/cells/ball_in_cell.h"
 #include "ball_unions/cells/cell_edge.h"
 #include "ball_unions/cells/power_cell.h"
+#include "ball_unions/unions/cell_work.h"
 #include "ball_unions/unions/kept_cells.h"
 #include "ball_unions/unions/simplex_lists.h"
 #include "ball_unions/unions/unit_balls.h"
 #include "base/host_memory.h"
+#include "base/parallel.h"
 #include "base/point_ops.h"
+#include "threads/worker_pool.h"
 
 namespace medial_vk {
 namespace {
 
-// Index of the ball of gain(), before those in the slots.
-constexpr std::uint32_t kTrial = 0, kFirst = 1, kNoBall = 0xffffffffu;
+// Indices of the balls of gain() and gains(), one for each worker, before those in the slots.
+constexpr std::uint32_t kTrial = 0, kFirst = 16, kNoBall = 0xffffffffu;
 
 /// The alterations of one change, and the planes of one cell, for which memory is allocated beforehand.
 constexpr std::size_t kUsualChange = 1024;
 std::size_t usual_change(std::uint32_t capacity) { return std::min<std::size_t>(capacity, kUsualChange) + kFirst; }
-
-constexpr Ball kGone = {{0, 0, 0}, std::numeric_limits<double>::quiet_NaN()};  // touches nothing
-bool is_gone(const Ball& ball) { return std::isnan(ball.radius); }
-
-bool touch(const Ball& a, const Ball& b) {
-  const double both = a.radius + b.radius;
-  const Point between = b.centre - a.centre;
-  return dot(between, between) <= both * both * (1 + 16 * DBL_EPSILON);
-}
-
-/// The offset of the plane between two balls, from the centre of the first towards the other.
-double offset_of(const Ball& ball, const Ball& other) {
-  const Point between = other.centre - ball.centre;
-  const double squared = dot(between, between);
-  if (squared == 0) return -HUGE_VAL;
-  return (squared + ball.radius * ball.radius - other.radius * other.radius) / (2 * std::sqrt(squared));
-}
 
 Status check_largest(double largest) {
   if (largest > 0 && std::isfinite(largest)) return {};
@@ -54,21 +37,19 @@ Status check_largest(double largest) {
 
 class DynamicUnion::Impl {
  public:
-  Impl(std::uint32_t capacity, double largest)
+  Impl(std::uint32_t capacity, double largest, unsigned threads)
       : largest_(largest),
         scale_(scale_within(largest)),
         capacity_(capacity),
         balls_(kFirst + capacity, kGone),
         given_(kFirst + capacity, kGone),
-        cells_(kFirst + capacity, usual_change(capacity)),
-        cell_(balls_) {
+        cells_(kFirst + capacity, usual_change(capacity)) {
     free_.reserve(capacity);  // so that remove() and undo() need no memory for it
     changed_.reserve(usual_change(capacity));
-    near_.reserve(capacity);
-    cutting_.reserve(capacity);
     affected_.reserve(2 * std::size_t{capacity});
-    order_.reserve(capacity);
-    cell_.make_room(usual_change(capacity), 0);
+    const unsigned workers = std::min<unsigned>(thread_count(threads), kFirst);
+    if (workers > 1) pool_ = std::make_unique<WorkerPool>(workers);
+    for (unsigned i = 0; i < workers; ++i) works_.push_back(std::make_unique<CellWork>(balls_, usual_change(capacity)));
   }
 
   void make_room() { cells_.make_room(); }
@@ -158,27 +139,35 @@ class DynamicUnion::Impl {
     changed_.clear();
   }
 
-  double gain(const Ball& ball) {
-    balls_[kTrial] = scaled(ball);
-    find_touching(balls_[kTrial], near_);
-    build(kTrial, kNoBall);
-    double sum = measure(kTrial).volume;
-    for (const std::uint32_t j : near_) {
+  double gain(const Ball& ball, unsigned worker = 0) {
+    CellWork& work = *works_[worker];
+    const std::uint32_t trial = kTrial + worker;
+    balls_[trial] = scaled(ball);
+    work.find_touching(all(), balls_[trial], work.near);
+    work.build(all(), trial, kNoBall);
+    double sum = measure(trial, work.cell).volume;
+    for (const std::uint32_t j : work.near) {
       if (sum <= 0) break;
-      if (cut(j, kTrial)) sum += measure(j).volume - cells_.of(j).measured.volume;
+      if (cut(j, trial, work.cell)) sum += measure(j, work.cell).volume - cells_.of(j).measured.volume;
     }
     return std::max(0.0, sum) / scale_ / scale_ / scale_;
+  }
+  void gains(std::span<const Ball> balls, std::span<double> gains) {
+    const auto measure_one = [&](std::size_t i, unsigned worker) { gains[i] = gain(balls[i], worker); };
+    if (pool_) return pool_->run(balls.size(), 1, measure_one);
+    for (std::size_t i = 0; i < balls.size(); ++i) measure_one(i, 0);
   }
 
   double loss(std::uint32_t slot) {
     const std::uint32_t i = kFirst + slot;
     double sum = cells_.of(i).measured.volume;
-    find_touching(balls_[i], near_);
-    for (const std::uint32_t j : near_) {
+    CellWork& work = *works_.front();
+    work.find_touching(all(), balls_[i], work.near);
+    for (const std::uint32_t j : work.near) {
       if (sum <= 0) break;
       if (j == i || !cells_.may_grow_without(j, i)) continue;
-      build(j, i);
-      sum -= measure(j).volume - cells_.of(j).measured.volume;
+      work.build(all(), j, i);
+      sum -= measure(j, work.cell).volume - cells_.of(j).measured.volume;
     }
     return std::max(0.0, sum) / scale_ / scale_ / scale_;
   }
@@ -186,48 +175,24 @@ class DynamicUnion::Impl {
  private:
   static double scale_within(double largest) { return scale_of(std::array<Ball, 1>{{{{largest, 0, 0}, 0}}}); }
 
+  BallsInSlots all() const { return {balls_, kFirst, end_}; }
+
   Ball scaled(const Ball& ball) const { return scaled_ball(ball, scale_); }
 
-  void find_touching(const Ball& ball, std::vector<std::uint32_t>& found) const {
-    found.clear();
-    for (std::uint32_t j = kFirst; j < end_; ++j) {
-      if (touch(ball, balls_[j])) found.push_back(j);
-    }
-  }
-
-  /// The cell of i among all balls except `without`, cut by the nearest planes first: most others are then beyond all
-  /// corners.
-  void build(std::uint32_t i, std::uint32_t without) {
-    find_touching(balls_[i], cutting_);
-    order_.clear();
-    for (const std::uint32_t j : cutting_) {
-      if (j != i && j != without) order_.emplace_back(offset_of(balls_[i], balls_[j]), j);
-    }
-    // Few of them are needed: a heap yields these in order, without sorting the others.
-    std::make_heap(order_.begin(), order_.end(), std::greater<>());
-    cell_.start(i);
-    double reach = reach_of(cell_.corners());
-    for (auto end = order_.end(); end != order_.begin() && order_.front().first <= reach && !cell_.empty(); --end) {
-      std::pop_heap(order_.begin(), end, std::greater<>());
-      if (cell_.clip((end - 1)->second)) reach = reach_of(cell_.corners());
-    }
-    cell_.sharpen();
-  }
-
   /// The stored cell of j, also cut by i. False if that changes nothing.
-  bool cut(std::uint32_t j, std::uint32_t i) {
+  bool cut(std::uint32_t j, std::uint32_t i, PowerCell& cell) const {
     const KeptCells::Kept& kept = cells_.of(j);
     if (kept.cell.is_empty() || offset_of(balls_[j], balls_[i]) > kept.reach) return false;
-    cells_.restore(j, cell_);
-    if (!cell_.clip(i)) return false;
-    cell_.sharpen();
+    cells_.restore(j, cell);
+    if (!cell.clip(i)) return false;
+    cell.sharpen();
     return true;
   }
 
-  /// Measures the current cell, which is that of i.
-  BallInCell measure(std::uint32_t i) const {
-    if (cell_.empty() || balls_[i].radius == 0) return {};
-    return measure_ball_in_cell(cell_, balls_[i].radius);
+  /// Measures a cell, which is that of i.
+  BallInCell measure(std::uint32_t i, const PowerCell& cell) const {
+    if (cell.empty() || balls_[i].radius == 0) return {};
+    return measure_ball_in_cell(cell, balls_[i].radius);
   }
 
   /// Adds a ball (from kGone), removes it (to kGone) or moves it. If memory runs out, the state is unchanged, and the
@@ -253,12 +218,13 @@ class DynamicUnion::Impl {
 
   void make_change(std::uint32_t i, const Ball& to) {
     const bool was_there = !is_gone(balls_[i]);
-    find_touching(balls_[i], affected_);
+    CellWork& work = *works_.front();
+    work.find_touching(all(), balls_[i], affected_);
     last_.given_before = given_[i];
     last_.ball = i;
     set_ball(i, to);
-    find_touching(balls_[i], near_);
-    append(affected_, near_);
+    work.find_touching(all(), balls_[i], work.near);
+    append(affected_, work.near);
     sort_unique(affected_);
     if (is_gone(to)) cells_.put_none(i);
     for (const std::uint32_t j : affected_) update(j, i, was_there);
@@ -267,15 +233,14 @@ class DynamicUnion::Impl {
   /// The cell of j, with its measures, after a change of ball i.
   void update(std::uint32_t j, std::uint32_t i, bool was_there) {
     if (j == i && is_gone(balls_[i])) return;
+    CellWork& work = *works_.front();
     if (j == i || (was_there && cells_.may_grow_without(j, i))) {
-      build(j, kNoBall);
-      put_cell(j);
-    } else if (touch(balls_[i], balls_[j]) && cut(j, i)) {
-      put_cell(j);
+      work.build(all(), j, kNoBall);
+    } else if (!touch(balls_[i], balls_[j]) || !cut(j, i, work.cell)) {
+      return;
     }
+    cells_.put(j, work.cell, measure(j, work.cell));
   }
-
-  void put_cell(std::uint32_t j) { cells_.put(j, cell_, measure(j)); }
 
   void note_changed() {
     changed_.reserve(cells_.changed().size());
@@ -309,9 +274,9 @@ class DynamicUnion::Impl {
   Change last_, before_;
   std::vector<std::uint32_t> changed_;  // slots
   // Scratch memory of the current call.
-  PowerCell cell_;
-  std::vector<std::uint32_t> near_, cutting_, affected_;
-  std::vector<std::pair<double, std::uint32_t>> order_;
+  std::vector<std::uint32_t> affected_;
+  std::vector<std::unique_ptr<CellWork>> works_;  // by worker
+  std::unique_ptr<WorkerPool> pool_;              // null: one thread
 };
 
 DynamicUnion::DynamicUnion(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -319,11 +284,11 @@ DynamicUnion::DynamicUnion(DynamicUnion&&) noexcept = default;
 DynamicUnion& DynamicUnion::operator=(DynamicUnion&&) noexcept = default;
 DynamicUnion::~DynamicUnion() = default;
 
-Result<DynamicUnion> DynamicUnion::build(std::uint32_t capacity, double largest) {
+Result<DynamicUnion> DynamicUnion::build(std::uint32_t capacity, double largest, unsigned threads) {
   if (capacity >= 1u << 30) return Error{ErrorCode::kUsage, "`capacity` must be below 2^30"};
   if (Status status = check_largest(largest); !status.ok()) return status.error();
   return catch_out_of_memory("making room for balls", [&]() -> Result<DynamicUnion> {
-    return DynamicUnion(std::make_unique<Impl>(capacity, largest));
+    return DynamicUnion(std::make_unique<Impl>(capacity, largest, threads));
   });
 }
 
@@ -386,6 +351,17 @@ Result<double> DynamicUnion::gain(const Ball& ball) {
   return catch_out_of_memory("measuring a ball beside a union", [&]() -> Result<double> {
     if (Status status = impl_->check(ball); !status.ok()) return status.error();
     return impl_->gain(ball);
+  });
+}
+
+Result<std::vector<double>> DynamicUnion::gains(std::span<const Ball> balls) {
+  return catch_out_of_memory("measuring balls beside a union", [&]() -> Result<std::vector<double>> {
+    for (const Ball& ball : balls) {
+      if (Status status = impl_->check(ball); !status.ok()) return status.error();
+    }
+    std::vector<double> gains(balls.size());
+    impl_->gains(balls, gains);
+    return gains;
   });
 }
 

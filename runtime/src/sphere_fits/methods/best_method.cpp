@@ -336,7 +336,7 @@ Result<SphereSet> best_spheres(const Solid& solid, const SphereFitOptions& optio
                                const SphereProgress& progress) {
   const std::size_t most = options.count > 0 ? options.count : kMostBalls;
   Result<DynamicUnion> balls =
-      DynamicUnion::build(static_cast<std::uint32_t>(most), largest_number(solid.mesh().report));
+      DynamicUnion::build(static_cast<std::uint32_t>(most), largest_number(solid.mesh().report), options.threads);
   if (!balls) return balls.error();
   return Placing(solid, options, extractor, progress, std::move(balls).value()).run();
 }

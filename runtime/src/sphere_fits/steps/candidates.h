@@ -36,6 +36,8 @@ class Candidates {
       return gain != other.gain ? gain < other.gain : candidate > other.candidate;
     }
   };
+  void take_stale(std::vector<Entry>& stale);
+
   std::vector<Ball> balls_;
   std::priority_queue<Entry> queue_;
   std::uint32_t round_ = 0;
