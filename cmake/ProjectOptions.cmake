@@ -17,8 +17,14 @@ function(medial_vk_project_options target)
   if(MEDIAL_VK_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
-  # The certificate relies on IEEE arithmetic as written: no contraction into fused operations, no reordering.
+  # The certificate relies on IEEE arithmetic as written: no contraction into fused operations, no reordering. Eigen calls
+  # fused operations itself where these macros say that the processor has them.
   target_compile_options(${target} PRIVATE -ffp-contract=off)
+  if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
+    target_compile_options(${target} PRIVATE -U__ARM_FEATURE_FMA)
+  elseif(CMAKE_CXX_FLAGS MATCHES "-m(arch|fma|avx|cpu)")
+    target_compile_options(${target} PRIVATE -U__FMA__)
+  endif()
   # No code reads errno after a function of <cmath>; square roots without it are computed several at a time.
   target_compile_options(${target} PRIVATE -fno-math-errno)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT target STREQUAL "medial_vk_reference")
