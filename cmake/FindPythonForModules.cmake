@@ -1,5 +1,7 @@
 # The Python for which the package medial_vk is built: Python3_EXECUTABLE if that is set, else the first python3 that has
 # NumPy, and its headers and pybind11. Sets MEDIAL_VK_HAS_PYTHON, and MEDIAL_VK_WHY_NO_PYTHON if it is false.
+# When it is built for another architecture, this Python only builds, and the headers are those of the other one's Python of
+# the same version.
 function(medial_vk_has_numpy result candidate)
   execute_process(COMMAND ${candidate} -c "import numpy" RESULT_VARIABLE status OUTPUT_QUIET ERROR_QUIET)
   if(NOT status EQUAL 0)
@@ -16,6 +18,14 @@ endif()
 set(MEDIAL_VK_HAS_PYTHON OFF)
 set(MEDIAL_VK_WHY_NO_PYTHON "no python3 with NumPy (python3-numpy)")
 if(Python3_EXECUTABLE)
+  if(CMAKE_CROSSCOMPILING)
+    execute_process(COMMAND ${Python3_EXECUTABLE} -c "import sys; print('%d.%d' % sys.version_info[:2])"
+      OUTPUT_VARIABLE python_version OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+    find_path(Python3_INCLUDE_DIR Python.h PATH_SUFFIXES python${python_version})
+    # As CPython names modules on Linux, with Debian's name of the architecture.
+    string(REPLACE "." "" python_version "${python_version}")
+    set(PYTHON_MODULE_EXTENSION ".cpython-${python_version}-${CMAKE_LIBRARY_ARCHITECTURE}.so")
+  endif()
   find_package(Python3 3.9 QUIET COMPONENTS Interpreter Development.Module)
   set(PYBIND11_FINDPYTHON OFF)
   set(PYBIND11_PYTHON_VERSION ${Python3_VERSION})

@@ -7,6 +7,9 @@ function(medial_vk_project_options target)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     target_compile_options(${target} PRIVATE -Wno-restrict)  # false alarms in std::string: GCC bug 105651
   endif()
+  if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${target} PRIVATE -Wno-psabi)  # notes on how GCC 9 passed a std::pair of doubles
+  endif()
   if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # Sources that are compiled together count as included, and gcc wants no local type in a class of an included file.
     target_compile_options(${target} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage>)
@@ -14,8 +17,14 @@ function(medial_vk_project_options target)
   if(MEDIAL_VK_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
-  # The certificate relies on IEEE arithmetic as written: no contraction into fused operations, no reordering.
+  # The certificate relies on IEEE arithmetic as written: no contraction into fused operations, no reordering. Eigen calls
+  # fused operations itself where these macros say that the processor has them.
   target_compile_options(${target} PRIVATE -ffp-contract=off)
+  if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
+    target_compile_options(${target} PRIVATE -U__ARM_FEATURE_FMA)
+  elseif(CMAKE_CXX_FLAGS MATCHES "-m(arch|fma|avx|cpu)")
+    target_compile_options(${target} PRIVATE -U__FMA__)
+  endif()
   # No code reads errno after a function of <cmath>; square roots without it are computed several at a time.
   target_compile_options(${target} PRIVATE -fno-math-errno)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT target STREQUAL "medial_vk_reference")

@@ -32,7 +32,7 @@ bool axes_of(double a, double b, double c, double d, const Point& first, const P
   for (std::size_t i = 0; i < 2; ++i) {
     const double value = half + (i == 0 ? -root : root);
     // Both rows of the matrix less the eigenvalue are perpendicular to the vector; the longer one says it better.
-    const bool use_first = std::hypot(a - value, b) >= std::hypot(c, d - value);
+    const bool use_first = length(Point{a - value, b, 0}) >= length(Point{c, d - value, 0});
     double x = use_first ? -b : value - d, y = use_first ? a - value : c;
     if (x == 0 && y == 0) (i == 0 ? x : y) = 1;
     out[i] = {value, unit(x * first + y * second)};

@@ -127,7 +127,8 @@ void leave_out_strays(std::vector<FramedTip>& tips, const Coefficients& c) {
       }
     }
     heights[i] = tip.height - height;
-    slopes[i] = std::hypot(tip.slopes[0] - along_x, tip.slopes[1] - along_y);
+    // Not std::hypot, whose last bits differ between systems.
+    slopes[i] = length(Point{tip.slopes[0] - along_x, tip.slopes[1] - along_y, 0});
   }
   const OutlierWeight of_height(heights), of_slope(slopes);
   for (std::size_t i = 0; i < tips.size(); ++i) tips[i].weight *= of_height(heights[i]) * of_slope(slopes[i]);

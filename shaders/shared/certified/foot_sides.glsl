@@ -32,6 +32,15 @@ int crossing(TriangleTexels t, vec3 p, vec3 y) {
   return before > 0.0 ? -1 : 1;
 }
 
+// unpackHalf2x16(), for which LLVM 15 has no code on 64-bit ARM in this kernel. Exact, subnormal numbers included; `bits` are
+// those of a finite number.
+float half_of(uint bits) {
+  uint fraction = bits & 0x3ffu, exponent = (bits >> 10) & 31u;
+  float size = exponent == 0u ? float(fraction) * 5.9604644775390625e-8  // 2^-24
+                              : uintBitsToFloat(((exponent + 112u) << 23) | (fraction << 13));
+  return (bits & 0x8000u) == 0u ? size : -size;
+}
+
 // Lemma K for one face: the winding number on that side of it, near all points of the cell that touch it, is below 1/2.
 bool is_outside_at(uint name, Cell cell, vec3 centre, float nearest_distance) {
   uint t = name / 8u, kind = name % 8u, flags = corners_and_flags(t).w;
@@ -47,7 +56,7 @@ bool is_outside_at(uint name, Cell cell, vec3 centre, float nearest_distance) {
   bool reached = length(y) + 2.0 * step.slack <= min(step.list_radius, 3.0 * rho);
   bool is_beside = abs(depth) > 4.0 * step.slack + tilt_of(face) * length(p);
   if (!reached || !is_beside || crossing_tests > kMostCrossingTests) return false;
-  vec2 measured = unpackHalf2x16(cell.winding);
+  vec2 measured = vec2(half_of(cell.winding & 0xffffu), half_of(cell.winding >> 16));
   float winding = measured.x;
   for (uint i = 0u; i < cell.list_count; ++i) {
     uint other = lists[cell.list_begin + i];
