@@ -104,7 +104,8 @@ Status visit_names(const std::string& pattern, const std::string& folder, Visit 
   for (; !error && at != end; at.increment(error)) {
     if (!visit(platform::text_of(at->path().filename()))) return too_many(pattern);
   }
-  if (error) return file_error(pattern, fmt::format("its folder cannot be read: {}", error.message()));
+  if (error)
+    return file_error(pattern, fmt::format("its folder cannot be read: {}", error.default_error_condition().message()));
   return {};
 }
 

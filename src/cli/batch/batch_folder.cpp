@@ -28,7 +28,7 @@ Error folder_error(const std::string& path, int reason) {
 Result<BatchFolder> BatchFolder::open(const std::string& path) {
   std::error_code error;
   fs::create_directories(platform::path_of(path), error);
-  if (error) return folder_error(path, error.value());
+  if (error) return folder_error(path, error.default_error_condition().value());
   BatchFolder folder;
   folder.path_ = path;
   if (Status status = check_writable(folder.table_path()); !status) return status.error();

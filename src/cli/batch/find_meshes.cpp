@@ -54,7 +54,7 @@ bool holds_table(const fs::path& folder) {
 }
 
 Error folder_error(const fs::path& folder, const std::error_code& error) {
-  return {ErrorCode::kInvalidMesh, fmt::format("{}: {}", text_of(folder), error.message())};
+  return {ErrorCode::kInvalidMesh, fmt::format("{}: {}", text_of(folder), error.default_error_condition().message())};
 }
 
 class MeshSearch {

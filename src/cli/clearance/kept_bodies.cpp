@@ -156,7 +156,7 @@ Status check_writable_folder(const std::string& folder) {
 Status make_folder(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directory(platform::path_of(folder), error);
-  if (error) return cannot_make(folder, error.message());
+  if (error) return cannot_make(folder, error.default_error_condition().message());
   return {};
 }
 

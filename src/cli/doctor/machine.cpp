@@ -127,7 +127,7 @@ std::vector<DeviceNode> device_nodes(const fs::path& root) {
 std::string try_to_write(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) return fmt::format("the folder cannot be created: {}", error.message());
+  if (error) return fmt::format("the folder cannot be created: {}", error.default_error_condition().message());
   const int reason = platform::try_to_write(text_of(folder));
   return reason == 0 ? "" : fmt::format("no file can be written there: {}", std::strerror(reason));
 }
