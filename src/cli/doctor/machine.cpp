@@ -140,7 +140,7 @@ MachineRecord examine_machine(const Environment& environment, const std::string&
   machine.system = platform::system_name();
   if (machine.system.empty()) machine.system = system_name(top);
   machine.kernel = platform::kernel_name();
-  machine.container = container_kind(environment, top);
+  if (!platform::kIsWindows) machine.container = container_kind(environment, top);
   machine.cards = graphics_cards(top);
   for (std::string& name : platform::registered_adapters()) {
     GraphicsCard card;
