@@ -17,7 +17,8 @@ set(absent ball_files/.* body_files/.* robots/.* rigs/.* scene_files/.* shape_fi
 set(other shaders/.* bench_trees/.* following/golden_motion)
 string(JOIN "|" MEDIAL_VK_TESTS_ELSEWHERE ${posix} ${absent} ${other})
 
-function(medial_vk_leave_out_tests sources)
-  list(FILTER ${sources} EXCLUDE REGEX "/unit/(${MEDIAL_VK_TESTS_ELSEWHERE})(_test)?[.](cpp|h)$")
-  set(${sources} ${${sources}} PARENT_SCOPE)
+function(medial_vk_leave_out_tests list_name)
+  set(kept ${${list_name}})
+  list(FILTER kept EXCLUDE REGEX "/unit/(${MEDIAL_VK_TESTS_ELSEWHERE})(_test)?[.](cpp|h)$")
+  set(${list_name} ${kept} PARENT_SCOPE)
 endfunction()

@@ -99,8 +99,10 @@ std::string driver_result(const DriverRecord& driver, bool verbose) {
 
 std::string drivers_text(const DoctorRecord& record, bool verbose) {
   const bool is_default = record.driver_override.empty();
-  std::string out = fmt::format("Driver files ({})\n", is_default ? "from the default folders of the loader"
-                                                                  : "from " + record.driver_override + " alone");
+  std::string out =
+      fmt::format("Driver files ({})\n",
+                  is_default ? platform::kIsWindows ? "from the registry" : "from the default folders of the loader"
+                             : "from " + record.driver_override + " alone");
   if (verbose || record.drivers.empty()) {
     for (const SearchedPlace& place : record.places)
       out += fmt::format("  searched: {} ({}{})\n", place.path, place.origin, place.exists ? "" : ", does not exist");
