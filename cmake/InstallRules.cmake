@@ -4,7 +4,12 @@ include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/medial_vk)
 
-install(TARGETS medial_vk EXPORT medial_vk-targets
+set(libraries medial_vk)
+if(TARGET medial_vk_dll)
+  list(APPEND libraries medial_vk_dll)
+endif()
+install(TARGETS ${libraries} EXPORT medial_vk-targets
+  RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/runtime/include/medial_vk DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}

@@ -32,6 +32,13 @@ function(medial_vk_project_options target)
     # reference has no float, and is a third faster with that optimisation.
     target_compile_options(${target} PRIVATE -fno-tree-slp-vectorize)
   endif()
+  if(MINGW AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
+    # The stack of Windows is aligned to 16 bytes, and gcc spills vectors of 32 bytes as if it were to 32 (GCC bug 54412):
+    # the assembler writes every such move as one that needs no alignment.
+    target_compile_options(${target} PRIVATE -Wa,-muse-unaligned-vector-move)
+    # Objects with a section for each of very many inline functions.
+    target_compile_options(${target} PRIVATE -Wa,-mbig-obj)
+  endif()
   if(MEDIAL_VK_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-sanitize-recover=undefined
       -fno-omit-frame-pointer)

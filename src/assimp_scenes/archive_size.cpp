@@ -1,3 +1,4 @@
+#if defined(MEDIAL_VK_HAS_ZIP)  // else nothing of libzip may be needed to build
 #include "assimp_scenes/archive_size.h"
 
 #include <zip.h>
@@ -29,3 +30,4 @@ std::uint64_t expanded_size(std::string_view bytes) {
 }
 
 }  // namespace medial_vk
+#endif

@@ -1,9 +1,6 @@
 #include "assimp_scenes/limits.h"
 
-#include <sys/prctl.h>
-#include <sys/resource.h>
-
-#include <csignal>
+#include "platform/processes.h"
 
 namespace medial_vk {
 namespace {
@@ -23,27 +20,17 @@ constexpr bool kIsSanitized = __has_feature(address_sanitizer) || __has_feature(
 constexpr bool kIsSanitized = false;
 #endif
 
-void set_limit(int resource, std::uint64_t soft) {
-  rlimit limit = {};
-  if (::getrlimit(static_cast<__rlimit_resource>(resource), &limit) != 0) return;
-  limit.rlim_cur = soft < limit.rlim_max ? soft : limit.rlim_max;
-  ::setrlimit(static_cast<__rlimit_resource>(resource), &limit);
-}
-
 std::uint64_t allowed_bytes = 0;
 
 void set_limits() {
-  if (!kIsSanitized) set_limit(RLIMIT_AS, kLeastMemory + kMemoryPerByte * allowed_bytes);
-  set_limit(RLIMIT_CPU, kLeastSeconds + allowed_bytes / kBytesPerSecond);
+  platform::limit_use(kIsSanitized ? 0 : kLeastMemory + kMemoryPerByte * allowed_bytes,
+                      kLeastSeconds + allowed_bytes / kBytesPerSecond);
 }
 
 }  // namespace
 
 void limit_this_process(std::uint64_t file_bytes) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
-  set_limit(RLIMIT_FSIZE, 0);
-  set_limit(RLIMIT_CORE, 0);
+  platform::limit_this_process();
   allowed_bytes = file_bytes;
   set_limits();
 }

@@ -8,6 +8,7 @@
 #include "assimp_scenes/limits.h"
 #include "base/quoted.h"
 #include "input/read_mesh.h"
+#include "platform/paths.h"
 #include "scene_files/files_of_folder.h"
 
 namespace medial_vk {
@@ -80,8 +81,7 @@ Assimp::IOStream* SceneIo::Open(const char* file, const char* mode) {
   if (known != others_.end()) return new MemoryStream(known->second);
   Result<std::string> bytes = read_mesh_bytes(resolved, bytes_left_);
   if (!bytes) {
-    refuse(medial_vk::quoted(std::filesystem::path(file).filename().string()) +
-           ", which cannot be read or is too long");
+    refuse(medial_vk::quoted(platform::file_name_of(file)) + ", which cannot be read or is too long");
     return nullptr;
   }
   bytes_left_ -= bytes.value().size();

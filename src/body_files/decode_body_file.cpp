@@ -19,6 +19,7 @@
 #include "common/file_extension.h"
 #include "input/text_scanner.h"
 #include "output/numpy_files/npz_reader.h"
+#include "platform/files.h"
 
 namespace medial_vk {
 namespace {
@@ -207,7 +208,7 @@ Result<BodyFile> decode_body_file(std::string_view bytes, const std::string& nam
 
 Result<BodyFile> read_body_file(const std::string& path) {
   errno = 0;
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(platform::open_to_read(path),
                                                              [](std::FILE* open) { return std::fclose(open); });
   std::string bytes;
   if (file) {

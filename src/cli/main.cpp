@@ -1,8 +1,6 @@
-#include <string>
-#include <vector>
-
 #include "cli/run.h"
+#include "platform/processes.h"
 
 int main(int count, char** arguments) {
-  return medial_vk::cli::run(std::vector<std::string>(arguments + (count > 0 ? 1 : 0), arguments + count));
+  return medial_vk::cli::run(medial_vk::platform::prepare_process(count, arguments));
 }

@@ -20,6 +20,7 @@
 #include "cli/terminal/messages.h"
 #include "cli/terminal/tables.h"
 #include "cli/voronoi/run_voronoi.h"
+#include "common/absent_parts.h"
 #include "medial_vk/context.h"
 #include "medial_vk/version.h"
 
@@ -33,12 +34,18 @@ Status list_devices() {
   return print_result(device_table(devices.value()));
 }
 
+std::string version_text() {
+  std::string text = fmt::format("medial-vk {}\n", version());
+  for (const std::string& part : absent_parts()) text += fmt::format("without {}\n", part);
+  return text;
+}
+
 Status run_action(const Options& options) {
   switch (options.action) {
     case Action::kHelp:
       return print_result(help_text());
     case Action::kVersion:
-      return print_result(fmt::format("medial-vk {}\n", version()));
+      return print_result(version_text());
     case Action::kListDevices:
       return list_devices();
     case Action::kExtract:

@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "input/text_scanner.h"
+#include "platform/files.h"
 
 namespace medial_vk {
 namespace {
@@ -51,7 +52,7 @@ std::vector<std::string_view> csv_words(std::string_view line) {
 Result<std::string> read_table(const std::string& path) {
   const bool is_stream = path == "-";
   errno = 0;
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> opened(is_stream ? nullptr : std::fopen(path.c_str(), "rb"),
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> opened(is_stream ? nullptr : platform::open_to_read(path),
                                                                [](std::FILE* file) { return std::fclose(file); });
   std::FILE* file = is_stream ? stdin : opened.get();
   std::string bytes;

@@ -1,6 +1,5 @@
 // Choice of the reader for a file, and input of its bytes.
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <cctype>
@@ -14,6 +13,7 @@
 #include "input/read_mesh.h"
 #include "input/readers.h"
 #include "input/text_scanner.h"
+#include "platform/files.h"
 
 namespace medial_vk {
 namespace {
@@ -87,13 +87,6 @@ Error too_long(const std::string& name, std::uint64_t most_bytes) {
   return file_error(name, fmt::format("longer than {} MiB, the most that is read", mebibytes));
 }
 
-/// The length of a regular file; 0 for streams and devices, whose length is unknown.
-std::uint64_t known_length(std::FILE* file) {
-  struct stat status = {};
-  if (::fstat(::fileno(file), &status) != 0 || !S_ISREG(status.st_mode)) return 0;
-  return static_cast<std::uint64_t>(status.st_size);
-}
-
 }  // namespace
 
 std::string name_of_input(const std::string& path) { return path == "-" ? "standard input" : path; }
@@ -101,10 +94,9 @@ std::string name_of_input(const std::string& path) { return path == "-" ? "stand
 Result<std::string> read_mesh_bytes(const std::string& path, std::uint64_t most_bytes) {
   const std::string name = name_of_input(path);
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(
-      path == "-" ? stdin : std::fopen(path.c_str(), "rb"),
-      [](std::FILE* f) { return f == stdin ? 0 : std::fclose(f); });
+      path == "-" ? stdin : platform::open_to_read(path), [](std::FILE* f) { return f == stdin ? 0 : std::fclose(f); });
   if (!file) return file_error(name, fmt::format("cannot open: {}", std::strerror(errno)));
-  const std::uint64_t known = known_length(file.get());
+  const std::uint64_t known = platform::length_of_regular(file.get());
   if (known > most_bytes) return too_long(name, most_bytes);
   std::string bytes;
   // One byte more shows whether the file has ended.

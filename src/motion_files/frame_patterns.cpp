@@ -1,7 +1,6 @@
 #include "motion_files/frame_patterns.h"
 
 #include <fmt/format.h>
-#include <fnmatch.h>
 
 #include <algorithm>
 #include <charconv>
@@ -13,6 +12,8 @@
 #include "base/quoted.h"
 #include "input/text_scanner.h"
 #include "motion_files/mesh_motion.h"
+#include "platform/files.h"
+#include "platform/paths.h"
 
 namespace medial_vk {
 namespace {
@@ -27,7 +28,7 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// The folder with its last slash, and the name.
 std::pair<std::string, std::string> split(const std::string& path) {
-  const std::size_t slash = path.rfind('/');
+  const std::size_t slash = path.find_last_of(platform::kFolderSigns);
   if (slash == std::string::npos) return {"", path};
   return {path.substr(0, slash + 1), path.substr(slash + 1)};
 }
@@ -99,11 +100,12 @@ Error too_many(const std::string& pattern) {
 template <class Visit>
 Status visit_names(const std::string& pattern, const std::string& folder, Visit visit) {
   std::error_code error;
-  std::filesystem::directory_iterator at(folder.empty() ? "." : folder, error), end;
+  std::filesystem::directory_iterator at(platform::path_of(folder.empty() ? "." : folder), error), end;
   for (; !error && at != end; at.increment(error)) {
-    if (!visit(at->path().filename().string())) return too_many(pattern);
+    if (!visit(platform::text_of(at->path().filename()))) return too_many(pattern);
   }
-  if (error) return file_error(pattern, fmt::format("its folder cannot be read: {}", error.message()));
+  if (error)
+    return file_error(pattern, fmt::format("its folder cannot be read: {}", error.default_error_condition().message()));
   return {};
 }
 
@@ -133,7 +135,7 @@ Result<std::vector<std::string>> matching_files(const std::string& pattern, cons
                                                 const std::string& name) {
   std::vector<std::string> files;
   const Status visited = visit_names(pattern, folder, [&](const std::string& file) {
-    if (::fnmatch(name.c_str(), file.c_str(), FNM_PERIOD | FNM_NOESCAPE) == 0) files.push_back(folder + file);
+    if (platform::matches_pattern(file, name)) files.push_back(folder + file);
     return files.size() <= kMostFrames;
   });
   if (!visited) return visited.error();
@@ -144,7 +146,7 @@ Result<std::vector<std::string>> matching_files(const std::string& pattern, cons
 
 bool is_there(const std::string& path) {
   std::error_code error;
-  return std::filesystem::exists(path, error);
+  return std::filesystem::exists(platform::path_of(path), error);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "input/text_scanner.h"
 #include "motion_files/mesh_motion.h"
 #include "motion_files/same_triangles.h"
+#include "platform/paths.h"
 #include "scene_files/read_mesh_file.h"
 
 namespace medial_vk {
@@ -58,7 +59,7 @@ Status find_frames(const std::string& rest, const std::vector<std::string>& fram
       continue;
     }
     std::error_code error;
-    if (!std::filesystem::exists(frame, error)) return file_error(frame, "there is no such file");
+    if (!std::filesystem::exists(platform::path_of(frame), error)) return file_error(frame, "there is no such file");
   }
   return {};
 }

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "base/quoted.h"
+#include "platform/paths.h"
 
 namespace medial_vk {
 namespace {
@@ -34,22 +35,22 @@ bool is_inside(const std::filesystem::path& file, const std::filesystem::path& f
 
 std::string folder_of_scene(const std::string& path) {
   std::error_code error;
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  return std::filesystem::canonical(folder.empty() ? "." : folder, error).string();
+  const std::filesystem::path folder = platform::path_of(path).parent_path();
+  return platform::text_of(std::filesystem::canonical(folder.empty() ? "." : folder, error));
 }
 
 Result<std::string> file_of_folder(const std::string& folder, const std::string& file) {
   const auto refuse = [&](const char* why) {
-    const std::string name = std::filesystem::path(file).filename().string();
+    const std::string name = platform::file_name_of(file);
     return Error{ErrorCode::kInvalidMesh, fmt::format("{}, {}", medial_vk::quoted(name), why)};
   };
   if (folder.empty()) return refuse("but has no folder");
   for (const std::string& name : {file, without_percent_signs(file)}) {
     std::error_code error;
-    const std::filesystem::path path = std::filesystem::canonical(name, error);
+    const std::filesystem::path path = std::filesystem::canonical(platform::path_of(name), error);
     if (error) continue;
-    if (!is_inside(path, folder)) return refuse("which is outside of its folder");
-    if (std::filesystem::is_regular_file(path, error)) return path.string();
+    if (!is_inside(path, platform::path_of(folder))) return refuse("which is outside of its folder");
+    if (std::filesystem::is_regular_file(path, error)) return platform::text_of(path);
   }
   return refuse("which is not there");
 }

@@ -1,3 +1,4 @@
+#if defined(MEDIAL_VK_HAS_XML)  // else nothing of tinyxml2 may be needed to build
 #include "xml_files/xml_document.h"
 
 #include <fmt/format.h>
@@ -84,3 +85,4 @@ Error element_error(const std::string& name, const tinyxml2::XMLElement& element
 }
 
 }  // namespace medial_vk
+#endif

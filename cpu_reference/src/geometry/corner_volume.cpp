@@ -28,16 +28,30 @@ class ExactSum {
 
   void add_product(double x, double y, double z) {
     const double xy = x * y;
-    for (const double part : {xy, std::fma(x, y, -xy)}) {
+    for (const double part : {xy, lost_by_rounding(x, y, xy)}) {
       const double product = part * z;
       add(product);
-      add(std::fma(part, z, -product));
+      add(lost_by_rounding(part, z, product));
     }
   }
 
   double value() const { return std::accumulate(parts_.begin(), parts_.end(), 0.0); }
 
  private:
+  /// x y - product, where `product` is their rounded product.
+  static double lost_by_rounding(double x, double y, double product) {
+#if defined(_WIN32)  // where fma() rounds twice: by halves of numbers (Shewchuk 1997, theorem 18)
+    const auto upper_half = [](double number) {
+      const double scaled = 0x8000001p0 * number;
+      return scaled - (scaled - number);
+    };
+    const double x_upper = upper_half(x), x_lower = x - x_upper, y_upper = upper_half(y), y_lower = y - y_upper;
+    return x_lower * y_lower - (((product - x_upper * y_upper) - x_lower * y_upper) - x_upper * y_lower);
+#else
+    return std::fma(x, y, -product);
+#endif
+  }
+
   std::vector<double> parts_;
 };
 

@@ -61,7 +61,7 @@ struct ContextOptions {
   std::string device;
   /// Enables the Khronos validation layer with synchronisation validation; messages are counted and printed.
   bool validation = false;
-  /// Folder of the pipeline cache. Empty: $XDG_CACHE_HOME/medial-vk, else $HOME/.cache/medial-vk, else none.
+  /// Of the pipeline cache, UTF-8. Empty: medial-vk in $XDG_CACHE_HOME, $HOME/.cache or %LOCALAPPDATA%; or none.
   std::string cache_folder;
   /// Threads of the host for the library's own work on this context (programs, arrays for the device); 0: one per core.
   /// A call whose options have another number than 0 uses that instead. Drivers have threads of their own.

@@ -20,17 +20,38 @@ inline std::pair<double, double> fast_two_sum(double a, double b) {
   return {high, b - (high - a)};
 }
 
-/// high + low == a b, and high is the rounded product, unless low underflows.
+/// high + low == a, and neither has more than 26 digits (Veltkamp; Shewchuk 1997, theorem 17). Precondition: a is below
+/// 2^996.
+inline std::pair<double, double> halves(double a) {
+  const double scaled = 0x8000001p0 * a;
+  const double high = scaled - (scaled - a);
+  return {high, a - high};
+}
+
+/// high + low == a b, and high is the rounded product, unless low underflows, by products without rounding (Dekker;
+/// Shewchuk 1997, theorem 18). Precondition: a and b are below 2^996.
+inline std::pair<double, double> two_product_of_halves(double a, double b) {
+  const double high = a * b;
+  const auto [a_high, a_low] = halves(a);
+  const auto [b_high, b_low] = halves(b);
+  return {high, a_low * b_low - (((high - a_high * b_high) - a_low * b_high) - a_high * b_low)};
+}
+
+/// The same by one rounding. The fma() of MinGW-w64 rounds twice.
 inline std::pair<double, double> two_product(double a, double b) {
+#if defined(_WIN32)
+  return two_product_of_halves(a, b);
+#else
   const double high = a * b;
   return {high, std::fma(a, b, -high)};
+#endif
 }
 
 /// A sum of two doubles that do not overlap, with an error bound: each operation adds less than 8 units of 2^-106 of
 /// the sum of magnitudes (M. Joldes, J.-M. Muller, V. Popescu, "Tight and rigorous error bounds for basic building
-/// blocks of double-word arithmetic", 2017: 3 and 5 units), but nothing if one number is zero or both are single
-/// doubles: sums and products of numbers with few digits, as of balls on a grid, are exact. Precondition: no product is
-/// below 2^-900, where its last digits would underflow; callers multiply five multiples of 2^-170 at most.
+/// blocks of double-word arithmetic", 2017: 3 units, and 5, or 7 without fma), but nothing if one number is zero or both
+/// are single doubles: sums and products of numbers with few digits, as of balls on a grid, are exact. Precondition: no
+/// product is below 2^-900, where its last digits would underflow; callers multiply five multiples of 2^-170 at most.
 class DoubleDouble {
  public:
   DoubleDouble() = default;
@@ -63,7 +84,11 @@ class DoubleDouble {
   friend DoubleDouble operator-(const DoubleDouble& a, const DoubleDouble& b) { return a + -b; }
   friend DoubleDouble operator*(const DoubleDouble& a, const DoubleDouble& b) {
     const auto [high, low] = two_product(a.high_, b.high_);
+#if defined(_WIN32)
+    const double cross = a.high_ * b.low_ + a.low_ * b.high_;
+#else
     const double cross = std::fma(a.high_, b.low_, a.low_ * b.high_);
+#endif
     const auto [x, y] = fast_two_sum(high, low + cross);
     const double size = a.size_ * b.size_;
     return {x, y, size, a.error_ * b.size_ + b.error_ * a.size_ + (is_exact(a, b) ? 0 : size)};

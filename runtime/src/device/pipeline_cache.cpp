@@ -59,6 +59,14 @@ bool matches(std::span<const std::byte> data, const PipelineCacheIdentity& ident
          std::memcmp(header.pipelineCacheUUID, identity.cache_uuid.data(), VK_UUID_SIZE) == 0;
 }
 
+/// Of UTF-8: on Windows the standard library reads `char` in the code page of the system.
+fs::path path_of(const std::string& utf8) { return std::u8string(utf8.begin(), utf8.end()); }
+
+std::string text_of(const fs::path& path) {
+  const std::u8string text = path.generic_u8string();
+  return {text.begin(), text.end()};
+}
+
 /// Distinct from that of any other process or context that writes the same cache now.
 fs::path temporary_name(const fs::path& file, const void* unique) {
   const auto now = static_cast<std::uint64_t>(std::chrono::high_resolution_clock::now().time_since_epoch().count());
@@ -72,24 +80,29 @@ fs::path temporary_name(const fs::path& file, const void* unique) {
 
 std::string pipeline_cache_folder(const std::string& option) {
   if (!option.empty()) return option;
+#if defined(_WIN32)
+  const wchar_t* local = ::_wgetenv(L"LOCALAPPDATA");
+  return local != nullptr && local[0] != L'\0' ? text_of(fs::path(local) / "medial-vk") : std::string();
+#else
   // By the XDG rules a relative path is ignored.
   const char* cache_home = std::getenv("XDG_CACHE_HOME");
   if (cache_home != nullptr && cache_home[0] == '/') return std::string(cache_home) + "/medial-vk";
   const char* home = std::getenv("HOME");
   if (home != nullptr && home[0] == '/') return std::string(home) + "/.cache/medial-vk";
   return {};
+#endif
 }
 
 std::string pipeline_cache_file(const std::string& folder, const PipelineCacheIdentity& identity) {
   if (folder.empty()) return {};
   const std::string name =
       "pipelines-" + hex(identity.vendor) + "-" + hex(identity.device) + "-" + hex(identity.driver_uuid) + ".bin";
-  return (fs::path(folder) / name).string();
+  return text_of(path_of(folder) / name);
 }
 
 std::vector<std::byte> read_pipeline_cache(const std::string& file, const PipelineCacheIdentity& identity) {
   if (file.empty()) return {};
-  std::ifstream stream(file, std::ios::binary);
+  std::ifstream stream(path_of(file), std::ios::binary);
   FileHeader header;
   if (!stream.read(reinterpret_cast<char*>(&header), sizeof(header))) return {};
   if (header.magic != FileHeader().magic || header.bytes > kMaxCacheBytes) return {};
@@ -102,9 +115,9 @@ std::vector<std::byte> read_pipeline_cache(const std::string& file, const Pipeli
 bool write_pipeline_cache(const std::string& file, std::span<const std::byte> data) {
   if (file.empty() || data.size() > kMaxCacheBytes) return false;
   std::error_code error;
-  fs::create_directories(fs::path(file).parent_path(), error);
+  fs::create_directories(path_of(file).parent_path(), error);
   if (error) return false;
-  const fs::path temporary = temporary_name(file, data.data());
+  const fs::path temporary = temporary_name(path_of(file), data.data());
   FileHeader header;
   header.bytes = data.size();
   header.checksum = fnv1a(data);
@@ -113,7 +126,7 @@ bool write_pipeline_cache(const std::string& file, std::span<const std::byte> da
     stream.write(reinterpret_cast<const char*>(&header), sizeof(header));
     stream.write(reinterpret_cast<const char*>(data.data()), static_cast<std::streamsize>(data.size()));
     stream.close();
-    if (stream.good()) fs::rename(temporary, file, error);
+    if (stream.good()) fs::rename(temporary, path_of(file), error);
     if (stream.good() && !error) return true;
   }
   fs::remove(temporary, error);

@@ -7,6 +7,8 @@
 
 #include "medial_vk/result.h"
 #include "output/batch_files/batch_table.h"
+#include "platform/files.h"
+#include "platform/paths.h"
 
 namespace medial_vk::cli {
 
@@ -16,9 +18,6 @@ class BatchFolder {
   /// Makes the folder if there is none, and the file .medial-vk.lock in it. Errors: kCannotWrite and kDiskFails,
   /// the latter also while another process works in it.
   static Result<BatchFolder> open(const std::string& path);
-  BatchFolder(BatchFolder&& other) noexcept;
-  BatchFolder& operator=(BatchFolder&&) = delete;
-  ~BatchFolder();
 
   std::string path_of(const std::string& name) const;
   std::string table_path() const { return path_of("batch.csv"); }
@@ -37,8 +36,8 @@ class BatchFolder {
   BatchFolder() = default;
 
   std::string path_;
-  int lock_ = -1;
-  int table_ = -1;
+  platform::LockedFile lock_;
+  platform::AppendedFile table_;
 };
 
 }  // namespace medial_vk::cli

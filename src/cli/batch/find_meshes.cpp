@@ -15,18 +15,21 @@
 #include "cli/terminal/messages.h"
 #include "common/file_extension.h"
 #include "input/csv_lines.h"
+#include "platform/paths.h"
 #include "scene_files/scene_formats.h"
 
 namespace medial_vk::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using platform::path_of;
+using platform::text_of;
 
 std::string name_of_path(const fs::path& given, const fs::path& file) {
   const fs::path normal = given.lexically_normal();
-  if (normal.is_relative() && !normal.empty() && *normal.begin() != "..") return normal.string();
+  if (normal.is_relative() && !normal.empty() && *normal.begin() != "..") return text_of(normal);
   std::error_code error;
-  return fs::absolute(file, error).lexically_normal().relative_path().string();
+  return text_of(fs::absolute(file, error).lexically_normal().relative_path());
 }
 
 std::string in_one_line(const std::string& name) {
@@ -37,7 +40,7 @@ std::string in_one_line(const std::string& name) {
 
 /// Whether `folder` is `output` or in it.
 bool lies_in(const fs::path& folder, const fs::path& output) {
-  const fs::path inner = real_path(folder.string()), outer = real_path(output.string());
+  const fs::path inner = path_of(real_path(text_of(folder))), outer = path_of(real_path(text_of(output)));
   return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
 }
 
@@ -51,7 +54,7 @@ bool holds_table(const fs::path& folder) {
 }
 
 Error folder_error(const fs::path& folder, const std::error_code& error) {
-  return {ErrorCode::kInvalidMesh, fmt::format("{}: {}", folder.string(), error.message())};
+  return {ErrorCode::kInvalidMesh, fmt::format("{}: {}", text_of(folder), error.default_error_condition().message())};
 }
 
 class MeshSearch {
@@ -62,22 +65,23 @@ class MeshSearch {
   Status add_input(const std::string& input) {
     if (input == "-") return add_list(input);
     std::error_code error;
-    const fs::file_status status = fs::status(input, error);
-    if (!fs::exists(status) || status.type() == fs::file_type::unknown) return folder_error(input, error);
+    const fs::file_status status = fs::status(path_of(input), error);
+    if (!fs::exists(status) || status.type() == fs::file_type::unknown) return folder_error(path_of(input), error);
     if (fs::is_directory(status)) return add_folder(input);
-    return file_extension(input) == ".txt" ? add_list(input) : add_mesh(input, input);
+    return file_extension(input) == ".txt" ? add_list(input) : add_mesh(path_of(input), input);
   }
 
   std::vector<BatchMesh> take() { return std::move(meshes_); }
 
  private:
   Status add_folder(const std::string& folder) {
-    if (lies_in(folder, output_)) {
+    const fs::path root = path_of(folder);
+    if (lies_in(root, output_)) {
       return Error{ErrorCode::kUsage, fmt::format("results in {} would be among the meshes of {}: name another folder",
-                                                  output_.string(), folder)};
+                                                  text_of(output_), folder)};
     }
     std::vector<fs::path> found;
-    std::vector<fs::path> folders = {folder};
+    std::vector<fs::path> folders = {root};
     while (!folders.empty()) {
       const fs::path next = std::move(folders.back());
       folders.pop_back();
@@ -85,8 +89,8 @@ class MeshSearch {
     }
     std::sort(found.begin(), found.end());
     for (const fs::path& file : found) {
-      const fs::path named = is_single_ ? file.lexically_relative(folder) : file;
-      if (Status status = add_mesh(named, file.string()); !status) return status;
+      const fs::path named = is_single_ ? file.lexically_relative(root) : file;
+      if (Status status = add_mesh(named, text_of(file)); !status) return status;
     }
     return {};
   }
@@ -96,7 +100,7 @@ class MeshSearch {
     fs::directory_iterator at(folder, error);
     for (const fs::directory_iterator end; !error && at != end; at.increment(error)) {
       const fs::path& path = at->path();
-      const std::string name = path.filename().string();
+      const std::string name = text_of(path.filename());
       if (name.starts_with('.')) continue;
       std::error_code unknown;
       if (fs::is_directory(at->symlink_status(unknown))) {
@@ -126,9 +130,9 @@ class MeshSearch {
       return read_table(list);
     }();
     if (!text) return text.error();
-    const fs::path folder = list == "-" ? fs::path() : fs::path(list).parent_path();
+    const fs::path folder = list == "-" ? fs::path() : path_of(list).parent_path();
     for (CsvLines lines(text.value()); lines.next();) {
-      const fs::path given(lines.line());
+      const fs::path given = path_of(lines.line());
       const fs::path file = folder / given;
       const std::string line = fmt::format("{}:{}", list == "-" ? "stdin" : list, lines.number());
       if (given == "-") {
@@ -139,9 +143,9 @@ class MeshSearch {
       if (fs::is_directory(file, unknown)) {
         return Error{ErrorCode::kUsage, fmt::format("{}: {} is a folder; lists hold meshes, and folders are inputs of "
                                                     "their own",
-                                                    line, file.string())};
+                                                    line, text_of(file))};
       }
-      if (Status status = add_mesh(given, file.string()); !status) return status;
+      if (Status status = add_mesh(given, text_of(file)); !status) return status;
     }
     return {};
   }
@@ -149,7 +153,7 @@ class MeshSearch {
   Status add_mesh(const fs::path& given, const std::string& file) {
     std::string real = real_path(file);
     if (!files_.insert(real).second) return {};
-    const std::string path = name_of_path(given, file);
+    const std::string path = name_of_path(given, path_of(file));
     const std::string name = in_one_line(path);
     const auto [at, is_new] = of_name_.try_emplace(name, meshes_.size());
     if (!is_new) {
@@ -174,13 +178,13 @@ std::string line_of_list(const BatchMesh& mesh) { return mesh.from_root ? "/" + 
 
 std::string real_path(const std::string& path) {
   std::error_code error;
-  const fs::path whole = fs::absolute(path, error);
+  const fs::path whole = fs::absolute(path_of(path), error);
   const fs::path real = fs::weakly_canonical(whole, error);
-  return error ? whole.lexically_normal().string() : real.string();
+  return error ? text_of(whole.lexically_normal()) : text_of(real);
 }
 
 Result<std::vector<BatchMesh>> find_meshes(const std::vector<std::string>& inputs, const std::string& output) {
-  MeshSearch search(inputs, output);
+  MeshSearch search(inputs, path_of(output));
   for (const std::string& input : inputs) {
     if (Status status = search.add_input(input); !status) return status.error();
   }

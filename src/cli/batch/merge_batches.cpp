@@ -1,11 +1,8 @@
 #include "cli/batch/merge_batches.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
 #include <filesystem>
 #include <random>
 #include <span>
@@ -30,11 +27,15 @@
 #include "common/tool_errors.h"
 #include "input/csv_lines.h"
 #include "output/atomic_files/atomic_file.h"
+#include "platform/files.h"
+#include "platform/paths.h"
 
 namespace medial_vk::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using platform::path_of;
+using platform::text_of;
 
 /// A line of a table, and the folder with its files.
 struct Merged {
@@ -56,16 +57,16 @@ Result<std::vector<std::string>> folders_of(const std::vector<std::string>& inpu
     }
     const Result<std::string> text = read_table(input);
     if (!text) return text.error();
-    const fs::path beside = input == "-" ? fs::path() : fs::path(input).parent_path();
-    for (CsvLines lines(text.value()); lines.next();) folders.push_back((beside / fs::path(lines.line())).string());
+    const fs::path beside = input == "-" ? fs::path() : path_of(input).parent_path();
+    for (CsvLines lines(text.value()); lines.next();) folders.push_back(text_of(beside / path_of(lines.line())));
   }
   return folders;
 }
 
 /// A name that leads out of the folder is none that this program writes.
 bool stays_in_folder(const std::string& name) {
-  const fs::path normal = fs::path(name).lexically_normal();
-  return normal.is_relative() && normal.string() == name && *normal.begin() != "..";
+  const fs::path normal = path_of(name).lexically_normal();
+  return normal.is_relative() && text_of(normal) == name && *normal.begin() != "..";
 }
 
 void fail(BatchRow& row, std::string reason) {
@@ -77,19 +78,21 @@ void fail(BatchRow& row, std::string reason) {
 /// Whether `to` already is `from`, by a link of an earlier merge.
 bool is_same_file(const std::string& from, const std::string& to) {
   std::error_code error;
-  return fs::equivalent(from, to, error) && !error;
+  return fs::equivalent(path_of(from), path_of(to), error) && !error;
 }
 
 /// Neither file is ever written to in place, so that both names of it stay whole. A file system without links gets a
 /// copy. A link cannot replace a file, which a rename does at once: until then it has the name `temporary`.
 Status link_or_copy(const std::string& from, const std::string& to, const std::string& temporary) {
   if (is_same_file(from, to)) return {};
-  if (::link(from.c_str(), temporary.c_str()) == 0) {
-    if (::rename(temporary.c_str(), to.c_str()) == 0) return {};
-    const int reason = errno;
-    ::unlink(temporary.c_str());
-    if (reason != EXDEV) {
-      return Error{kCannotWrite, fmt::format("cannot write {}: {}", to, std::generic_category().message(reason))};
+  std::error_code error;
+  fs::create_hard_link(path_of(from), path_of(temporary), error);
+  if (!error) {
+    fs::rename(path_of(temporary), path_of(to), error);
+    if (!error) return {};
+    platform::remove_file(temporary);
+    if (error != std::errc::cross_device_link) {
+      return Error{kCannotWrite, fmt::format("cannot write {}: {}", to, error.default_error_condition().message())};
     }
   }
   Result<std::string> bytes = read_table(from);
@@ -105,7 +108,7 @@ void remove_temporary_links(const std::string& folder) {
   std::error_code error;
   fs::directory_iterator at(folder, error);
   for (const fs::directory_iterator end; !error && at != end; at.increment(error)) {
-    if (at->path().filename().string().starts_with(kTemporary)) ::unlink(at->path().c_str());
+    if (text_of(at->path().filename()).starts_with(kTemporary)) platform::remove_file(text_of(at->path()));
   }
 }
 
@@ -136,7 +139,7 @@ class Merge {
 
  private:
   Status add_folder(const std::string& folder) {
-    const std::string path = (fs::path(folder) / "batch.csv").string();
+    const std::string path = text_of(path_of(folder) / "batch.csv");
     if (real_path(folder) == real_path(options_.output)) {
       return Error{ErrorCode::kUsage,
                    fmt::format("{} is among the folders to merge: name another one with -o", folder)};
@@ -217,16 +220,16 @@ class Merge {
   Status take_files(Merged& mesh) {
     BatchRow& row = mesh.row;
     const std::string& name = row[BatchColumn::kName];
-    const std::string from = (fs::path(mesh.folder) / name).string(), to = folder_.path_of(name);
+    const std::string from = text_of(path_of(mesh.folder) / path_of(name)), to = folder_.path_of(name);
     const std::vector<std::string> sources = paths_of_results(from, row[BatchColumn::kFiles]);
     std::error_code error;
-    const auto missing = std::ranges::find_if(sources, [&](const auto& file) { return !fs::exists(file, error); });
+    const auto missing = std::ranges::find_if(sources, [&](const auto& file) { return !fs::exists(path_of(file), error); });
     if (missing != sources.end()) fail(row, fmt::format("its result {} is missing", *missing));
     const std::vector<std::string> targets = paths_of_results(to, row[BatchColumn::kFiles]);
     for (const std::string& path : paths_of_results(to, earlier_files(name))) {
-      if (std::ranges::find(targets, path) == targets.end()) ::unlink(path.c_str());
+      if (std::ranges::find(targets, path) == targets.end()) platform::remove_file(path);
     }
-    fs::create_directories(fs::path(to).parent_path(), error);  // link_or_copy() tells what is wrong
+    fs::create_directories(path_of(to).parent_path(), error);  // link_or_copy() tells what is wrong
     for (std::size_t i = 0; i < targets.size(); ++i) {
       if (Status status = link_or_copy(sources[i], targets[i], temporary_); !status) return status;
     }

@@ -1,7 +1,6 @@
 #include "cli/batch/page_file.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +8,7 @@
 #include "cli/batch/result_files.h"
 #include "output/atomic_files/atomic_file.h"
 #include "output/batch_page/batch_page.h"
+#include "platform/paths.h"
 
 namespace medial_vk::cli {
 
@@ -23,7 +23,7 @@ Status write_page(const BatchFolder& folder, std::span<const BatchRow> rows) {
     if (picture != card.files.end()) card.picture = *picture;
     cards.push_back(std::move(card));
   }
-  const std::string table = std::filesystem::path(folder.table_path()).filename().string();
+  const std::string table = platform::file_name_of(folder.table_path());
   const OutputFile page = {folder.page_path(), encode_batch_page(cards, table)};
   return write_files({&page, 1});
 }

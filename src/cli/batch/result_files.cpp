@@ -1,11 +1,10 @@
 #include "cli/batch/result_files.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cctype>
 
 #include "cli/options/output_names.h"
+#include "platform/files.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -58,7 +57,7 @@ std::vector<std::string> paths_of_results(const std::string& stem, std::string_v
 }
 
 void remove_results(const std::string& stem, std::string_view endings) {
-  for (const std::string& path : paths_of_results(stem, endings)) ::unlink(path.c_str());
+  for (const std::string& path : paths_of_results(stem, endings)) platform::remove_file(path);
 }
 
 }  // namespace medial_vk::cli

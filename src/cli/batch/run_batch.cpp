@@ -136,7 +136,7 @@ class BatchRun {
       if (before == rows_.end()) continue;
       const std::string& file = before->second[BatchColumn::kFile];
       std::error_code error;
-      if (file.empty() || file == without_line_ends(mesh.real) || !fs::exists(file, error)) continue;
+      if (file.empty() || file == without_line_ends(mesh.real) || !fs::exists(platform::path_of(file), error)) continue;
       return Error{ErrorCode::kUsage,
                    fmt::format("{} has results of {} with the name {}, and {} is another file: name another folder "
                                "with -o",
@@ -277,7 +277,7 @@ class BatchRun {
     const std::string stem = stem_of(mesh);
     remove_results(stem, earlier_files(mesh));
     std::error_code error;
-    fs::create_directories(fs::path(stem).parent_path(), error);  // write_files() tells what is wrong
+    fs::create_directories(platform::path_of(stem).parent_path(), error);  // write_files() tells what is wrong
     return write_files(files);
   }
 
@@ -299,7 +299,7 @@ class BatchRun {
     }
     const bool has_files = std::ranges::all_of(outputs_of(of_mesh), [](const NamedOutput& output) {
       std::error_code error;
-      return output.file->empty() || fs::exists(*output.file, error);
+      return output.file->empty() || fs::exists(platform::path_of(*output.file), error);
     });
     return has_files ? &before->second : nullptr;
   }

@@ -22,6 +22,7 @@
 #include "common/tool_errors.h"
 #include "medial_vk/ball_union.h"
 #include "medial_vk/version.h"
+#include "platform/paths.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -59,7 +60,7 @@ bool have_same_shapes(const RobotAndScene& all, std::size_t first, std::size_t b
 /// The name of a part or of a file without folder and ending, in letters that every file system takes.
 std::string plain_stem(const std::string& name) {
   constexpr std::size_t kMost = 60;
-  std::string stem = std::filesystem::path(name).stem().string().substr(0, kMost);
+  std::string stem = platform::stem_of(name).substr(0, kMost);
   for (std::size_t i = 0; i < stem.size(); ++i) {
     const char c = stem[i];
     const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
@@ -137,10 +138,10 @@ Error cannot_make(const std::string& folder, const std::string& reason) {
 
 Status check_folder(const std::string& folder) {
   std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(folder, error);
+  const std::filesystem::file_status status = std::filesystem::status(platform::path_of(folder), error);
   if (std::filesystem::is_directory(status)) return {};
   if (std::filesystem::exists(status)) return cannot_make(folder, "is no folder");
-  if (std::filesystem::is_symlink(std::filesystem::symlink_status(folder, error))) {
+  if (std::filesystem::is_symlink(std::filesystem::symlink_status(platform::path_of(folder), error))) {
     return cannot_make(folder, "is a link to nothing");
   }
   return check_writable(folder);
@@ -148,13 +149,14 @@ Status check_folder(const std::string& folder) {
 
 Status check_writable_folder(const std::string& folder) {
   std::error_code error;
-  return std::filesystem::is_directory(folder, error) ? check_writable(folder + "/x.body.npz") : Status();
+  return std::filesystem::is_directory(platform::path_of(folder), error) ? check_writable(folder + "/x.body.npz")
+                                                                         : Status();
 }
 
 Status make_folder(const std::string& folder) {
   std::error_code error;
-  std::filesystem::create_directory(folder, error);
-  if (error) return cannot_make(folder, error.message());
+  std::filesystem::create_directory(platform::path_of(folder), error);
+  if (error) return cannot_make(folder, error.default_error_condition().message());
   return {};
 }
 
@@ -193,8 +195,9 @@ Result<std::optional<SolidBalls>> read_kept_body(const std::string& path, const 
   const EndAtOnce guard;
   if (interrupted()) return stopped();
   std::error_code error;
-  if (!std::filesystem::exists(path, error) && !error) return std::optional<SolidBalls>();
-  const bool opens = std::filesystem::is_regular_file(path, error) && std::ifstream(path).good();
+  const std::filesystem::path at = platform::path_of(path);
+  if (!std::filesystem::exists(at, error) && !error) return std::optional<SolidBalls>();
+  const bool opens = std::filesystem::is_regular_file(at, error) && std::ifstream(at).good();
   const auto refused = [opens](Error reason) {
     if (opens && reason.code == ErrorCode::kInvalidMesh)
       reason.message += "; remove the file to have the body fitted again";

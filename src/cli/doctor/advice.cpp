@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "cli/doctor/driver_search.h"
+#include "platform/machine.h"
+#include "platform/paths.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -40,6 +42,11 @@ class Adviser {
 
   void about_loader() {
     if (record_.loader.problem.empty()) return;
+    if (platform::kIsWindows) {
+      say("Install the driver of the graphics card in its newest version, which brings the Vulkan loader, or use "
+          "--backend cpu, which needs no Vulkan.");
+      return;
+    }
     say("Install the Vulkan loader{} (Debian and Ubuntu: apt install libvulkan1; Fedora: dnf install vulkan-loader; "
         "Arch: pacman -S vulkan-icd-loader), or use --backend cpu, which needs no Vulkan.",
         record_.loader.library.empty() ? "" : " in a newer version");
@@ -62,7 +69,7 @@ class Adviser {
 
   void about_driver_files() {
     for (const DriverRecord& driver : record_.drivers) {
-      const std::string name = std::filesystem::path(driver.file).filename().string();
+      const std::string name = platform::file_name_of(driver.file);
       if (driver.stops_loader) {
         say("{}: {}. Some loaders then use no driver at all, or crash. Repair the file or remove it; if it belongs to "
             "a "
@@ -85,7 +92,8 @@ class Adviser {
     std::string files;
     for (const DriverRecord& driver : record_.drivers) {
       if (driver.devices.empty()) continue;
-      files += (files.empty() ? "" : ":") + driver.file;
+      if (!files.empty()) files += platform::kListSeparator;
+      files += driver.file;
     }
     return files.empty() ? "" : fmt::format(" Until then name the others: VK_DRIVER_FILES={}", files);
   }
@@ -128,6 +136,7 @@ class Adviser {
 
   /// A graphics card that no device stands for.
   void about_cards() {
+    if (platform::kIsWindows) return;  // the driver that brings the loader is that of a card
     if (std::ranges::any_of(record_.devices, [](const ExaminedDevice& d) { return is_gpu(d.description); })) return;
     about_access();
     const bool has_nvidia = has_card_of("NVIDIA") || record_.machine.has_nvidia_kernel || has_node("/dev/nvidia");
@@ -197,6 +206,11 @@ class Adviser {
     if (!record_.devices.empty() || !record_.driver_override.empty() ||
         std::ranges::any_of(record_.drivers, is_other_matter))
       return;
+    if (platform::kIsWindows) {
+      say("No driver leads to a device: install the driver of the graphics card. Without one, --backend cpu runs on "
+          "one thread.");
+      return;
+    }
     say("No driver leads to a device. For a graphics card install its driver: that of NVIDIA, or Mesa's for AMD and "
         "Intel. Without a card, on servers and in containers, Mesa's lavapipe computes on the CPU. Those of Mesa are "
         "in one "
@@ -209,8 +223,9 @@ class Adviser {
 
   void about_cache() {
     if (record_.cache.problem.empty()) return;
-    say("Set XDG_CACHE_HOME to a folder that can be written. Without a cache every run compiles its programs again, "
-        "which takes some drivers seconds to minutes.");
+    say("Set {} to a folder that can be written. Without a cache every run compiles its programs again, "
+        "which takes some drivers seconds to minutes.",
+        platform::kIsWindows ? "LOCALAPPDATA" : "XDG_CACHE_HOME");
   }
 
   const DoctorRecord& record_;

@@ -6,25 +6,19 @@
 #include <string>
 
 #include "medial_vk/result.h"
+#include "platform/processes.h"
 
 namespace medial_vk::cli {
 
-enum class ChildEnd {
-  kDone,     ///< `work` returned.
-  kCrashed,  ///< A signal ended the process, or it ended by itself before `work` returned.
-  kTooLong,  ///< It was ended after the time limit.
-};
+using platform::ChildEnd;
+using platform::ChildOutcome;
 
-struct ChildOutcome {
-  ChildEnd end = ChildEnd::kCrashed;
-  std::string how;       ///< If not done: "crashed: Segmentation fault (signal 11)", "did not end within 60 s".
-  std::string result;    ///< What `work` returned.
-  std::string messages;  ///< What was written to standard output and standard error meanwhile, shortened if very long.
-};
-
-/// Runs `work` in a copy of this process and waits for it, at most for `limit`. Standard input is empty there; nothing
-/// that it writes appears, and no core file. It ends with this process. Precondition: no other thread runs, since the
-/// copy has this one only; the result is not empty. Error: kInternal, if the system refuses a process.
-Result<ChildOutcome> run_in_child(const std::function<std::string()>& work, std::chrono::milliseconds limit);
+/// platform::run_in_child(). Error: kInternal, if the system refuses a process.
+inline Result<ChildOutcome> run_in_child(const std::function<std::string()>& work, std::chrono::milliseconds limit) {
+  std::string problem;
+  ChildOutcome outcome = platform::run_in_child(work, limit, problem);
+  if (!problem.empty()) return Error{ErrorCode::kInternal, problem};
+  return outcome;
+}
 
 }  // namespace medial_vk::cli

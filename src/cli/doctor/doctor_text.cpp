@@ -12,7 +12,9 @@
 
 #include "cli/terminal/numbers.h"
 #include "cli/terminal/tables.h"
+#include "common/absent_parts.h"
 #include "medial_vk/version.h"
+#include "platform/machine.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -53,10 +55,13 @@ std::string machine_text(const MachineRecord& machine) {
   std::string out = field("system", fmt::format("{}; {}", machine.system, machine.kernel));
   if (!machine.container.empty()) out += field("container", machine.container);
   for (const GraphicsCard& card : machine.cards) {
-    out += field("card", fmt::format("{} ({}) at {}, {}", card.vendor, card.ids, card.address,
-                                     card.kernel_driver.empty() ? "without a kernel driver"
-                                                                : "kernel driver " + card.kernel_driver));
+    out += field("card", card.ids.empty()
+                             ? card.vendor
+                             : fmt::format("{} ({}) at {}, {}", card.vendor, card.ids, card.address,
+                                           card.kernel_driver.empty() ? "without a kernel driver"
+                                                                      : "kernel driver " + card.kernel_driver));
   }
+  if (platform::kIsWindows) return machine.cards.empty() ? out + field("card", "none is registered") : out;
   if (machine.cards.empty()) out += field("card", "none on the PCI bus");
   for (const DeviceNode& node : machine.nodes) {
     out += field("file", fmt::format("{}, group {}: {}", node.path, node.group,
@@ -94,8 +99,10 @@ std::string driver_result(const DriverRecord& driver, bool verbose) {
 
 std::string drivers_text(const DoctorRecord& record, bool verbose) {
   const bool is_default = record.driver_override.empty();
-  std::string out = fmt::format("Driver files ({})\n", is_default ? "from the default folders of the loader"
-                                                                  : "from " + record.driver_override + " alone");
+  std::string out =
+      fmt::format("Driver files ({})\n",
+                  is_default ? platform::kIsWindows ? "from the registry" : "from the default folders of the loader"
+                             : "from " + record.driver_override + " alone");
   if (verbose || record.drivers.empty()) {
     for (const SearchedPlace& place : record.places)
       out += fmt::format("  searched: {} ({}{})\n", place.path, place.origin, place.exists ? "" : ", does not exist");
@@ -204,7 +211,9 @@ const char* result_text(const DoctorRecord& record, const Status& verdict) {
 }  // namespace
 
 std::string doctor_text(const DoctorRecord& record, const Status& verdict, bool verbose) {
-  std::vector<std::string> parts = {fmt::format("medial-vk {}\n", version()) + machine_text(record.machine) +
+  std::string without;
+  for (const std::string& part : absent_parts()) without += field("without", part);
+  std::vector<std::string> parts = {fmt::format("medial-vk {}\n", version()) + without + machine_text(record.machine) +
                                     loader_text(record.loader) + variables_text(record.variables) +
                                     cache_text(record.cache)};
   parts.push_back(drivers_text(record, verbose));

@@ -13,6 +13,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "platform/paths.h"
+
 namespace medial_vk::cli {
 namespace {
 
@@ -25,7 +27,7 @@ constexpr std::size_t kMostBytes = std::size_t{1} << 20;
 /// A path with a slash is relative to the file; a name alone is left to the system's search.
 std::string resolved(const std::string& library, const std::string& file) {
   if (library.find('/') == std::string::npos || library.starts_with('/')) return library;
-  return (fs::path(file).parent_path() / library).lexically_normal().string();
+  return platform::text_of((platform::path_of(file).parent_path() / platform::path_of(library)).lexically_normal());
 }
 
 /// The text under a key of an object; empty: there is none.
@@ -71,8 +73,8 @@ void read_manifest(std::string_view bytes, DriverRecord& driver) {
 void read_manifest(DriverRecord& driver) {
   driver.is_broken = true;  // until it has been read
   std::error_code error;
-  std::ifstream file(driver.file, std::ios::binary);
-  if (!file || fs::is_directory(driver.file, error)) {
+  std::ifstream file(platform::path_of(driver.file), std::ios::binary);
+  if (!file || fs::is_directory(platform::path_of(driver.file), error)) {
     driver.problem = fmt::format("the file cannot be read: {}", std::strerror(file ? EISDIR : errno));
     return;
   }

@@ -9,6 +9,10 @@
 #include <string_view>
 #include <utility>
 
+#include "platform/machine.h"
+#include "platform/paths.h"
+#include "platform/processes.h"
+
 namespace medial_vk::cli {
 namespace {
 
@@ -57,6 +61,7 @@ class Search {
       add_default_folders();
     }
     for (const SearchedPlace& place : search_.places) add_files(place);
+    if (search_.driver_override.empty()) add_registered();
     if (rules_.has_filters) filter();
     return std::move(search_);
   }
@@ -71,10 +76,12 @@ class Search {
 
  private:
   void add_list(const char* variable) {
-    for (const std::string& path : split(environment_(variable).value_or(""), ':')) add(path, variable);
+    for (const std::string& path : split(environment_(variable).value_or(""), platform::kListSeparator))
+      add(path, variable);
   }
 
   void add_default_folders() {
+    if (platform::kIsWindows) return;  // drivers are registered there
     add_home("XDG_CONFIG_HOME", ".config");
     add_folders("XDG_CONFIG_DIRS", "/etc/xdg");
     add(std::string("/etc/") + kFolder, "default");  // SYSCONFDIR of the loader's build
@@ -85,32 +92,41 @@ class Search {
   void add_home(const char* variable, const char* below_home) {
     if (rules_.is_elevated) return;
     if (const auto folder = non_empty(environment_, variable)) {
-      add((fs::path(*folder) / kFolder).string(), variable);
+      add(platform::text_of(platform::path_of(*folder) / kFolder), variable);
     } else if (const auto home = non_empty(environment_, "HOME")) {
-      add((fs::path(*home) / below_home / kFolder).string(), "default");
+      add(platform::text_of(platform::path_of(*home) / below_home / kFolder), "default");
     }
   }
 
   void add_folders(const char* variable, const char* otherwise) {
     const auto given = non_empty(environment_, variable);
     for (const std::string& folder : split(given.value_or(otherwise), ':'))
-      add((fs::path(folder) / kFolder).string(), given ? variable : "default");
+      add(platform::text_of(platform::path_of(folder) / kFolder), given ? variable : "default");
   }
 
   void add(const std::string& path, const char* origin) {
     std::error_code ignored;
     const bool is_new = std::none_of(search_.places.begin(), search_.places.end(),
                                      [&](const SearchedPlace& place) { return place.path == path; });
-    if (is_new) search_.places.push_back({path, origin, fs::exists(path, ignored)});
+    if (is_new) search_.places.push_back({path, origin, fs::exists(platform::path_of(path), ignored)});
+  }
+
+  void add_registered() {
+    for (const std::string& file : platform::registered_drivers()) {
+      DriverRecord driver;
+      driver.file = file;
+      search_.drivers.push_back(std::move(driver));
+    }
   }
 
   /// A folder stands for its files. A file need not exist: that is for the loader to report.
   void add_files(const SearchedPlace& place) {
     std::error_code error;
     std::vector<std::string> files;
-    if (fs::is_directory(place.path, error)) {
-      for (fs::directory_iterator it(place.path, error), end; !error && it != end; it.increment(error))
-        files.push_back(it->path().string());
+    const fs::path path = platform::path_of(place.path);
+    if (fs::is_directory(path, error)) {
+      for (fs::directory_iterator it(path, error), end; !error && it != end; it.increment(error))
+        files.push_back(platform::text_of(it->path()));
       std::sort(files.begin(), files.end());
     } else if (!search_.driver_override.empty() || place.origin == "VK_ADD_DRIVER_FILES") {
       files.push_back(place.path);
@@ -126,7 +142,7 @@ class Search {
   void filter() {
     const std::string select = environment_(kSelect).value_or(""), disable = environment_(kDisable).value_or("");
     for (DriverRecord& driver : search_.drivers) {
-      const std::string name = fs::path(driver.file).filename().string();
+      const std::string name = platform::file_name_of(driver.file);
       const bool is_selected = !select.empty() && is_in_filter(select, name);
       const bool is_disabled = !disable.empty() && (is_in_filter(disable, name) || is_in_filter(disable, "~all~"));
       if (!select.empty() && !is_selected) {
@@ -161,10 +177,7 @@ bool has_driver_filters(std::uint32_t loader_version) {
 }
 
 Environment process_environment() {
-  return [](const std::string& name) -> std::optional<std::string> {
-    const char* value = std::getenv(name.c_str());
-    return value != nullptr ? std::optional<std::string>(value) : std::nullopt;
-  };
+  return [](const std::string& name) -> std::optional<std::string> { return platform::variable_of(name); };
 }
 
 bool is_in_filter(const std::string& filter, const std::string& name) {

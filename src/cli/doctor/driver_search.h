@@ -1,4 +1,4 @@
-// The driver files (ICD files) that the Vulkan loader finds on Linux, by the rules of its documentation
+// The driver files (ICD files) that the Vulkan loader finds, by the rules of its documentation
 // (LoaderDriverInterface.md, "Driver Discovery"). They are computed here without the loader, to say what it leaves out.
 #pragma once
 

@@ -1,12 +1,8 @@
 #include "cli/doctor/examine_vulkan.h"
 
-#include <dlfcn.h>
 #include <fmt/format.h>
-#include <link.h>
 
 #include <cstdint>
-#include <cstdlib>
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -16,6 +12,8 @@
 #include "medial_vk/context.h"
 #include "medial_vk/host_device.h"
 #include "output/doctor_report/findings_json.h"
+#include "platform/libraries.h"
+#include "platform/processes.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -26,33 +24,15 @@ constexpr std::string_view kDevices = "devices ", kError = "error ", kNoLibrary 
 /// Usual for drivers of cards that the machine does not have.
 constexpr const char* kFindsNone = "it finds no device here";
 
-/// The reason of the last dlopen() that failed.
-std::string dl_problem() {
-  const char* const problem = ::dlerror();
-  return problem != nullptr ? problem : "unknown reason";
-}
-
-std::string file_of(void* library) {
-  link_map* map = nullptr;
-  if (::dlinfo(library, RTLD_DI_LINKMAP, &map) != 0 || map == nullptr || map->l_name == nullptr) return {};
-  std::error_code error;
-  const std::filesystem::path real = std::filesystem::canonical(map->l_name, error);
-  return error ? map->l_name : real.string();
-}
-
 /// In the child process. volk opens the same names in the same order.
 LoaderRecord open_loader() {
   LoaderRecord loader;
-  void* library = ::dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) {
-    loader.problem = dl_problem();
-    library = ::dlopen("libvulkan.so", RTLD_NOW | RTLD_LOCAL);
-  }
+  void* const library = platform::load_vulkan(loader.problem);
   if (library == nullptr) return loader;
   loader.problem.clear();
-  loader.library = file_of(library);
+  loader.library = platform::file_of(library);
   const auto enumerate =
-      reinterpret_cast<PFN_vkEnumerateInstanceVersion>(::dlsym(library, "vkEnumerateInstanceVersion"));
+      reinterpret_cast<PFN_vkEnumerateInstanceVersion>(platform::function_of(library, "vkEnumerateInstanceVersion"));
   if (enumerate == nullptr || enumerate(&loader.version) != VK_SUCCESS) loader.version = VK_API_VERSION_1_0;
   const std::uint32_t needed = device_requirements().api_version;
   if (loader.version < needed) loader.problem = fmt::format("it is too old, {} is needed", version_text(needed));
@@ -62,7 +42,7 @@ LoaderRecord open_loader() {
 /// In a child process: the list, or the message of an error, in one text.
 std::string encoded_list() {
   // The loader reports drivers that it leaves out only on request; the user's own request stays.
-  ::setenv("VK_LOADER_DEBUG", "error,warn", 0);
+  platform::set_variable("VK_LOADER_DEBUG", "error,warn", false);
   const Result<std::vector<DeviceDescription>> devices = Context::list_devices();
   return devices ? std::string(kDevices) + encode_devices(devices.value())
                  : std::string(kError) + devices.error().message;
@@ -76,8 +56,8 @@ Result<std::vector<DeviceDescription>> decoded_list(const std::string& text) {
 
 /// In a child process.
 void use_only(const std::string& driver_file) {
-  for (const char* name : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"}) ::setenv(name, driver_file.c_str(), 1);
-  for (const char* name : {"VK_LOADER_DRIVERS_SELECT", "VK_LOADER_DRIVERS_DISABLE"}) ::unsetenv(name);
+  for (const char* name : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"}) platform::set_variable(name, driver_file, true);
+  for (const char* name : {"VK_LOADER_DRIVERS_SELECT", "VK_LOADER_DRIVERS_DISABLE"}) platform::unset_variable(name);
 }
 
 }  // namespace
@@ -119,8 +99,8 @@ void list_devices(std::chrono::milliseconds limit, DoctorRecord& record) {
 void examine_driver(std::chrono::milliseconds limit, DriverRecord& driver) {
   driver.is_probed = true;
   const auto work = [&driver]() -> std::string {
-    if (::dlopen(driver.library.c_str(), RTLD_NOW | RTLD_LOCAL) == nullptr)
-      return std::string(kNoLibrary) + dl_problem();
+    std::string problem;
+    if (platform::load_library(driver.library, problem) == nullptr) return std::string(kNoLibrary) + problem;
     use_only(driver.file);
     return encoded_list();
   };

@@ -1,16 +1,9 @@
 #include "cli/doctor/machine.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <grp.h>
-#include <sys/stat.h>
-#include <sys/utsname.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -18,9 +11,15 @@
 #include <utility>
 #include <vector>
 
+#include "platform/files.h"
+#include "platform/machine.h"
+#include "platform/paths.h"
+
 namespace medial_vk::cli {
 namespace {
 
+using platform::path_of;
+using platform::text_of;
 namespace fs = std::filesystem;
 
 std::string first_line(const fs::path& file) {
@@ -50,12 +49,6 @@ std::string system_name(const fs::path& root) {
     return line.substr(key.size());
   }
   return "unknown system";
-}
-
-std::string kernel_name() {
-  utsname names = {};
-  if (::uname(&names) != 0) return "unknown kernel";
-  return fmt::format("{} {}, {}", names.sysname, names.release, names.machine);
 }
 
 /// By the marks that container engines leave.
@@ -98,34 +91,23 @@ std::vector<GraphicsCard> graphics_cards(const fs::path& root) {
   for (const fs::path& entry : entries_of(root / "sys/bus/pci/devices")) {
     if (!first_line(entry / "class").starts_with("0x03")) continue;
     GraphicsCard card;
-    card.address = entry.filename().string();
+    card.address = text_of(entry.filename());
     const std::string vendor = hexadecimal(first_line(entry / "vendor"));
     card.vendor = vendor_name(vendor);
     card.ids = vendor + ":" + hexadecimal(first_line(entry / "device"));
     std::error_code error;
     const fs::path driver = fs::read_symlink(entry / "driver", error);
-    if (!error) card.kernel_driver = driver.filename().string();
+    if (!error) card.kernel_driver = text_of(driver.filename());
     cards.push_back(std::move(card));
   }
   return cards;
 }
 
-std::string group_name(gid_t number) {
-  const group* found = ::getgrgid(number);  // of the process, which has one thread
-  return found != nullptr ? found->gr_name : std::to_string(number);
-}
-
 DeviceNode examine_node(const fs::path& path, const fs::path& root) {
   DeviceNode node;
-  node.path = "/" + path.lexically_relative(root.empty() ? "/" : root).string();
-  struct stat status = {};
-  if (::stat(path.c_str(), &status) == 0) node.group = group_name(status.st_gid);
-  const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK);
-  if (file < 0) {
-    node.why_not = std::strerror(errno);
-  } else {
-    ::close(file);
-  }
+  node.path = "/" + text_of(path.lexically_relative(root.empty() ? "/" : root));
+  node.group = platform::group_of(text_of(path));
+  node.why_not = platform::why_not_open(text_of(path));
   return node;
 }
 
@@ -134,7 +116,7 @@ std::vector<DeviceNode> device_nodes(const fs::path& root) {
   std::vector<DeviceNode> nodes;
   const fs::path top = root.empty() ? fs::path("/") : root;
   for (const fs::path& entry : entries_of(top / "dev/dri"))
-    if (entry.filename().string().starts_with("renderD")) nodes.push_back(examine_node(entry, root));
+    if (text_of(entry.filename()).starts_with("renderD")) nodes.push_back(examine_node(entry, root));
   std::error_code error;
   for (const char* name : {"dev/nvidiactl", "dev/nvidia0", "dev/dxg"})
     if (fs::exists(top / name, error)) nodes.push_back(examine_node(top / name, root));
@@ -145,28 +127,27 @@ std::vector<DeviceNode> device_nodes(const fs::path& root) {
 std::string try_to_write(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) return fmt::format("the folder cannot be created: {}", error.message());
-  std::string name = (folder / "doctor.XXXXXX").string();
-  const int file = ::mkostemp(name.data(), O_CLOEXEC);
-  if (file < 0) return fmt::format("no file can be written there: {}", std::strerror(errno));
-  constexpr char kByte = '\n';
-  const bool is_written = ::write(file, &kByte, 1) == 1 && ::fsync(file) == 0;
-  const int reason = errno;
-  ::close(file);
-  ::unlink(name.c_str());
-  return is_written ? "" : fmt::format("no file can be written there: {}", std::strerror(reason));
+  if (error) return fmt::format("the folder cannot be created: {}", error.default_error_condition().message());
+  const int reason = platform::try_to_write(text_of(folder));
+  return reason == 0 ? "" : fmt::format("no file can be written there: {}", std::strerror(reason));
 }
 
 }  // namespace
 
 MachineRecord examine_machine(const Environment& environment, const std::string& root) {
-  const fs::path top = root.empty() ? fs::path("/") : fs::path(root);
+  const fs::path top = root.empty() ? fs::path("/") : path_of(root);
   MachineRecord machine;
-  machine.system = system_name(top);
-  machine.kernel = kernel_name();
-  machine.container = container_kind(environment, top);
+  machine.system = platform::system_name();
+  if (machine.system.empty()) machine.system = system_name(top);
+  machine.kernel = platform::kernel_name();
+  if (!platform::kIsWindows) machine.container = container_kind(environment, top);
   machine.cards = graphics_cards(top);
-  machine.nodes = device_nodes(root);
+  for (std::string& name : platform::registered_adapters()) {
+    GraphicsCard card;
+    card.vendor = std::move(name);
+    machine.cards.push_back(std::move(card));
+  }
+  machine.nodes = device_nodes(path_of(root));
   std::error_code error;
   machine.has_nvidia_kernel = fs::exists(top / "proc/driver/nvidia/version", error);
   return machine;
@@ -176,11 +157,12 @@ CacheRecord examine_cache(const std::string& folder) {
   CacheRecord cache;
   cache.folder = folder;
   if (folder.empty()) {
-    cache.problem = "neither XDG_CACHE_HOME nor HOME names a folder";
+    cache.problem =
+        platform::kIsWindows ? "LOCALAPPDATA names no folder" : "neither XDG_CACHE_HOME nor HOME names a folder";
     return cache;
   }
-  cache.problem = try_to_write(folder);
-  for (const fs::path& file : entries_of(folder)) {
+  cache.problem = try_to_write(path_of(folder));
+  for (const fs::path& file : entries_of(path_of(folder))) {
     std::error_code error;
     const std::uintmax_t bytes = fs::file_size(file, error);
     if (error) continue;

@@ -1,7 +1,6 @@
 #include "cli/doctor/run_doctor.h"
 
 #include <fmt/format.h>
-#include <sys/auxv.h>
 
 #include <algorithm>
 #include <chrono>
@@ -24,6 +23,7 @@
 #include "medial_vk/context.h"
 #include "output/atomic_files/atomic_file.h"
 #include "output/doctor_report/doctor_report.h"
+#include "platform/machine.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -66,7 +66,7 @@ class DoctorRun {
     record_.cache = examine_cache(Context::default_cache_folder());
     record_.loader = examine_loader(limit_);
     SearchRules rules;
-    rules.is_elevated = ::getauxval(AT_SECURE) != 0;
+    rules.is_elevated = platform::has_more_rights();
     rules.has_filters = has_driver_filters(record_.loader.version);
     record_.variables = relevant_variables(environment, rules);
     DriverSearch search = search_drivers(environment, rules);

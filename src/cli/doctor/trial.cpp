@@ -16,6 +16,8 @@
 #include "medial_vk/context.h"
 #include "medial_vk/prepare.h"
 #include "output/doctor_report/findings_json.h"
+#include "platform/machine.h"
+#include "platform/paths.h"
 #include "reference_bridge/check_balls.h"
 #include "reference_bridge/reference_extractor.h"
 
@@ -25,7 +27,7 @@ namespace {
 constexpr std::uint32_t kAround = 16, kAlong = 32, kResolution = 24;
 
 /// No file can be made below it, so that no programs are read or kept.
-constexpr const char* kNoCache = "/dev/null";
+constexpr const char* kNoCache = platform::kIsWindows ? "//./NUL" : "/dev/null";
 
 /// A flattened torus, whose medial surface is a band, turned so that nothing lies along the axes.
 Mesh make_solid() {
@@ -142,7 +144,8 @@ TrialRecord try_once(const TrialTask& task, std::uint32_t device, const std::str
 
 bool has_files(const std::string& folder) {
   std::error_code error;
-  return !folder.empty() && std::filesystem::directory_iterator(folder, error) != std::filesystem::directory_iterator();
+  return !folder.empty() &&
+         std::filesystem::directory_iterator(platform::path_of(folder), error) != std::filesystem::directory_iterator();
 }
 
 }  // namespace

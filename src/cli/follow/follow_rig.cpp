@@ -11,6 +11,7 @@
 #include "cli/terminal/messages.h"
 #include "common/file_extension.h"
 #include "output/rig_files/rig_gltf.h"
+#include "platform/paths.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -36,7 +37,8 @@ Status check_rig_file(const FollowOptions& options, const MeshMotion& motion) {
   if (source == nullptr || options.rest == "-" || !names_other_files(*source)) return {};
   const auto folder_of = [](const std::string& path) {
     std::error_code error;
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(path, error).parent_path(), error);
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(platform::path_of(path), error).parent_path(),
+                                             error);
   };
   if (folder_of(options.rig) == folder_of(options.rest)) return {};
   return Error{ErrorCode::kUsage,

@@ -33,6 +33,7 @@
 #include "output/page/page.h"
 #include "output/picture/motion_picture.h"
 #include "output/picture/panels/image.h"
+#include "platform/paths.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -155,7 +156,7 @@ class FollowRun {
 
   Status follow() {
     record_.version = version();
-    record_.name = options_.rest == "-" ? "stdin" : std::filesystem::path(options_.rest).filename().string();
+    record_.name = options_.rest == "-" ? "stdin" : platform::file_name_of(options_.rest);
     record_.covers = options_.covers();
     record_.rule = record_.covers                                     ? "cover"
                    : options_.follower.rule == FollowRule::kPublished ? "published"
@@ -214,7 +215,7 @@ class FollowRun {
     if (interrupted()) return stopped();
     FollowedFrame frame;
     frame.name = name;
-    frame.short_name = options_.frames.empty() ? name : std::filesystem::path(name).stem().string();
+    frame.short_name = options_.frames.empty() ? name : platform::stem_of(name);
     frame.time = time;
     frame.is_mirrored = is_mirrored(mesh_->prepared(), vertices);
     if (Status status = follower_->describe(frame); !status) return status;

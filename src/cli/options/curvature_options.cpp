@@ -10,6 +10,7 @@
 
 #include "cli/options/declarations.h"
 #include "common/file_extension.h"
+#include "platform/paths.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -18,14 +19,14 @@ constexpr double kGreatestSpacing = 1e18;  // as of the library
 
 /// BALLS-stem.curvature.ply in the current folder; a medial file loses its .medial, too.
 std::string default_curvature_output(const std::string& balls) {
-  std::filesystem::path stem = balls == "-" ? std::filesystem::path("stdin") : std::filesystem::path(balls).stem();
+  std::filesystem::path stem = platform::path_of(balls == "-" ? "stdin" : balls).stem();
   for (const char* ending : {".medial", ".spheres", ".body"}) {
     if (stem.extension() == ending && stem.has_stem()) {
       stem = stem.stem();
       break;
     }
   }
-  return stem.string() + ".curvature.ply";
+  return platform::text_of(stem) + ".curvature.ply";
 }
 
 void declare_curvature(CLI::App& app, CurvatureCommandOptions& options) {

@@ -12,6 +12,7 @@
 
 #include "cli/options/declarations.h"
 #include "common/file_extension.h"
+#include "platform/paths.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -159,7 +160,7 @@ Status check_follow_outputs(const FollowOptions& options) {
 }
 
 std::string usual_output(const std::string& rest) {
-  return (rest == "-" ? "stdin" : std::filesystem::path(rest).stem().string()) + ".follow.npz";
+  return (rest == "-" ? "stdin" : platform::stem_of(rest)) + ".follow.npz";
 }
 
 }  // namespace

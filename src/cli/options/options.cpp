@@ -14,6 +14,7 @@
 #include "cli/options/output_names.h"
 #include "cli/options/parse_number.h"
 #include "common/file_extension.h"
+#include "platform/paths.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -130,7 +131,7 @@ namespace {
 
 /// MESH-stem.medial.ply in the current folder; balls as a mesh are no medial PLY.
 std::string default_output(const Options& options) {
-  const std::string stem = options.mesh == "-" ? "stdin" : fs::path(options.mesh).stem().string();
+  const std::string stem = options.mesh == "-" ? "stdin" : platform::stem_of(options.mesh);
   return stem + (options.mesh_spheres ? ".spheres.ply" : ".medial.ply");
 }
 

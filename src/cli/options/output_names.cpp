@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "common/file_extension.h"
+#include "platform/paths.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -16,8 +17,11 @@ namespace fs = std::filesystem;
 bool same_file(const std::string& a, const std::string& b) {
   if (a == "-" || b == "-") return a == b;
   std::error_code error;
-  if (fs::equivalent(a, b, error)) return true;
-  return fs::weakly_canonical(fs::absolute(a, error), error) == fs::weakly_canonical(fs::absolute(b, error), error);
+  if (fs::equivalent(platform::path_of(a), platform::path_of(b), error)) return true;
+  const auto whole = [&error](const std::string& path) {
+    return fs::weakly_canonical(fs::absolute(platform::path_of(path), error), error);
+  };
+  return whole(a) == whole(b);
 }
 
 bool may_end_in(const std::string& path, const char* extension) {
@@ -50,14 +54,14 @@ Status check_no_stream(std::span<const NamedOutput> outputs) {
 }
 
 std::string with_part(const std::string& path, const std::string& part) {
-  const fs::path name(path);
+  const fs::path name = platform::path_of(path);
   fs::path stem = name.stem();
-  std::string extension = name.extension().string();
+  std::string extension = platform::text_of(name.extension());
   while (stem.extension() == ".medial" || stem.extension() == ".spheres" || stem.extension() == ".foam") {
-    extension.insert(0, stem.extension().string());
+    extension.insert(0, platform::text_of(stem.extension()));
     stem = stem.stem();
   }
-  return (name.parent_path() / (stem.string() + "." + part + extension)).string();
+  return platform::text_of(name.parent_path() / platform::path_of(platform::text_of(stem) + "." + part + extension));
 }
 
 }  // namespace medial_vk::cli

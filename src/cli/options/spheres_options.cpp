@@ -11,6 +11,7 @@
 #include "cli/options/declarations.h"
 #include "cli/options/output_names.h"
 #include "common/file_extension.h"
+#include "platform/paths.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -140,7 +141,7 @@ Status check_goals(const SpheresOptions& options) {
 /// Of a body file there is one form.
 Status complete_body_output(SpheresOptions& options) {
   if (options.output.empty()) {
-    options.output = (options.input == "-" ? "stdin" : fs::path(options.input).stem().string()) + ".body.npz";
+    options.output = (options.input == "-" ? "stdin" : platform::stem_of(options.input)) + ".body.npz";
   }
   if (may_end_in(options.output, ".npz")) return {};
   return usage_error(fmt::format("--output: with --contract both a body file is written, and '{}' does not end in .npz",
@@ -155,7 +156,7 @@ Status complete_output(SpheresOptions& options, const Given& given) {
   options.format = given.format.value_or(usual);
   if (options.output.empty()) {
     constexpr const char* kExtensions[] = {".csv", ".json", ".foam.json", ".yml", ".xrdf", ".urdf"};
-    const std::string stem = options.input == "-" ? "stdin" : fs::path(options.input).stem().string();
+    const std::string stem = options.input == "-" ? "stdin" : platform::stem_of(options.input);
     options.output = stem + ".spheres" + kExtensions[static_cast<std::size_t>(options.format)];
   } else if (options.output != "-" && !given.format) {
     const Result<SphereFormat> format = sphere_format_of(options.output);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cli/shared/ball_points.h"
+#include "platform/paths.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -70,9 +71,7 @@ std::string title_of(const PoseInterval& interval) {
   return fmt::format("undecided, {:.6g} to {:.6g}", interval.lower, interval.upper);
 }
 
-std::string name_of_file(const std::string& path) {
-  return path == "-" ? "stdin" : std::filesystem::path(path).filename().string();
-}
+std::string name_of_file(const std::string& path) { return path == "-" ? "stdin" : platform::file_name_of(path); }
 
 Status append_views(const PairPicture& picture, const PictureView& view, const std::string& file_of_picture,
                     const std::string& file_of_page, DistancePage page, std::vector<OutputFile>& files) {

@@ -23,6 +23,7 @@ class ProgramsWatch {
 
  private:
   unsigned patience_;
+  std::string too_slow_;  // the message
   std::optional<EndAtOnce> guard_;
 };
 

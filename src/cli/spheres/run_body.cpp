@@ -25,6 +25,7 @@
 #include "output/fit_reports/fits_report.h"
 #include "output/picture/body_picture.h"
 #include "output/picture/panels/image.h"
+#include "platform/paths.h"
 #include "reference_bridge/check_balls.h"
 
 namespace medial_vk::cli {
@@ -184,7 +185,7 @@ class BodyRun {
     record.is_body = true;
     record.spheres = options_.spheres;
     record.backend = options_.backend;
-    record.name = options_.input == "-" ? "stdin" : std::filesystem::path(options_.input).stem().string();
+    record.name = options_.input == "-" ? "stdin" : platform::stem_of(options_.input);
     record.device = shared_.device;
     record.times = shared_.times;
     for (const auto& [contract, set] :

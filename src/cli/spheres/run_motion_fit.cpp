@@ -30,6 +30,7 @@
 #include "motion_fits/choose_balls.h"
 #include "output/atomic_files/atomic_file.h"
 #include "output/sphere_files/sphere_file.h"
+#include "platform/paths.h"
 #include "reference_bridge/check_balls.h"
 
 namespace medial_vk::cli {
@@ -283,7 +284,7 @@ class MotionFitRun {
     file.version = version();
     file.contract = "inside";
     file.method = "best";
-    file.name = options_.input == "-" ? "stdin" : std::filesystem::path(options_.input).stem().string();
+    file.name = options_.input == "-" ? "stdin" : platform::stem_of(options_.input);
     file.branch = options_.spheres.count;
     file.parts = {{file.name, file.name, {result_}, {ReachOut()}}};
     Result<std::string> bytes = encode_spheres(options_.format, file);

@@ -29,6 +29,7 @@
 #include "output/fit_reports/fits_record.h"
 #include "output/fit_reports/fits_report.h"
 #include "output/picture/picture.h"
+#include "platform/paths.h"
 #include "reference_bridge/check_balls.h"
 #include "robots/model/read_urdf.h"
 #include "robots/parts.h"
@@ -60,7 +61,7 @@ class SpheresRun {
     Result<PreparedMesh> prepared =
         prepare_loaded(std::move(mesh), options_.input, shared_.opening, prepare_options(), record_.times);
     if (!prepared) return prepared.error();
-    record_.name = options_.input == "-" ? "stdin" : std::filesystem::path(options_.input).stem().string();
+    record_.name = options_.input == "-" ? "stdin" : platform::stem_of(options_.input);
     if (!record_.part.empty()) record_.name = record_.part;
     Result<IndexedMesh> indexed = IndexedMesh::build(std::move(prepared).value(), {.threads = threads});
     if (!indexed) return with_hint(indexed.error());
@@ -87,7 +88,7 @@ class SpheresRun {
     Result<Robot> robot = read_urdf(urdf_, options_.input);
     if (!robot) return robot.error();
     robot_ = std::move(robot).value();
-    record_.name = robot_.name.empty() ? std::filesystem::path(options_.input).stem().string() : robot_.name;
+    record_.name = robot_.name.empty() ? platform::stem_of(options_.input) : robot_.name;
     const Result<MeshPlaces> places = mesh_places(options_.input, options_.packages);
     if (!places) return places.error();
     const bool cover = options_.spheres.contract == SphereContract::kCover;

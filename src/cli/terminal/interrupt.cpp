@@ -1,13 +1,14 @@
 #include "cli/terminal/interrupt.h"
 
-#include <unistd.h>
-
 #include <atomic>
-#include <csignal>
 #include <string_view>
 
 #include "cli/terminal/messages.h"
 #include "medial_vk/result.h"
+#include "platform/files.h"
+#include "platform/processes.h"
+#include "platform/signals.h"
+#include "platform/terminal.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -16,7 +17,7 @@ std::atomic<bool> stop_requested{false}, may_end_at_once{false}, on_terminal{fal
 std::atomic<bool> has_kept_bodies{false}, has_kept_meshes{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch lock-free atomics only");
 
-/// Calls only functions allowed in a handler: write() and _exit().
+/// Calls only functions allowed in a handler.
 [[noreturn]] void end_at_once() {
   constexpr std::string_view kNothing = "\nmedial-vk: interrupted; nothing was written\n";
   constexpr std::string_view kBodies = "\nmedial-vk: interrupted; the bodies are kept, and nothing else was written\n";
@@ -24,35 +25,22 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touc
   const std::string_view kept = has_kept_meshes ? kMeshes : has_kept_bodies ? kBodies : kNothing;
   // On a terminal, below the line on which the shell has shown ^C.
   const std::string_view message = kept.substr(on_terminal ? 0 : 1);
-  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, message.data(), message.size());
-  ::_exit(exit_code(ErrorCode::kInterrupted));
+  platform::write_all(platform::kStandardError, message);
+  platform::end_process(exit_code(ErrorCode::kInterrupted));
 }
 
-extern "C" void request_stop(int) {
+void request_stop() {
   // The order is opposite to that at the beginning of work, so that one of the two threads always sees the other's
   // write.
   stop_requested = true;
   if (may_end_at_once) end_at_once();
-  // From here on either signal ends the program. signal() is safe in a handler.
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
 }
 
 }  // namespace
 
 void install_interrupt_handlers() {
-  on_terminal = ::isatty(STDERR_FILENO) == 1;
-  struct sigaction action = {};
-  action.sa_handler = request_stop;
-  sigemptyset(&action.sa_mask);
-  action.sa_flags = SA_RESTART;  // Reads and writes in progress continue; the flag is tested between them.
-  for (const int signal : {SIGINT, SIGTERM}) {
-    // A shell that starts a job in the background, and nohup, make it ignore signals on purpose; they remain ignored.
-    struct sigaction before = {};
-    if (sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) continue;
-    sigaction(signal, &action, nullptr);
-  }
-  std::signal(SIGPIPE, SIG_IGN);  // A closed pipe is a failed write, with exit code 6.
+  on_terminal = platform::has_terminal();
+  platform::on_request_to_stop(request_stop);
 }
 
 bool interrupted() { return stop_requested; }

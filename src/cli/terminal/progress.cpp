@@ -1,13 +1,13 @@
 #include "cli/terminal/progress.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "cli/terminal/numbers.h"
+#include "platform/terminal.h"
 
 namespace medial_vk::cli {
 
@@ -38,7 +38,7 @@ std::string count_line(const std::string& stage, std::size_t done, std::size_t t
   return fmt::format("{} {} of {}", bar(stage, share), done, total);
 }
 
-Progress::Progress(bool requested) : requested_(requested), drawing_(requested && isatty(STDERR_FILENO) == 1) {}
+Progress::Progress(bool requested) : requested_(requested), drawing_(requested && platform::has_terminal()) {}
 
 void Progress::draw(const std::string& line) {
   last_drawn_ = Clock::now();

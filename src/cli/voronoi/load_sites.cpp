@@ -11,14 +11,13 @@
 #include "base/stopwatch.h"
 #include "medial_vk/indexed_mesh.h"
 #include "medial_vk/prepare.h"
+#include "platform/paths.h"
 #include "scene_files/read_mesh_file.h"
 
 namespace medial_vk::cli {
 namespace {
 
-std::string stem_of(const std::string& file) {
-  return file == "-" ? std::string("stdin") : std::filesystem::path(file).stem().string();
-}
+std::string stem_of(const std::string& file) { return file == "-" ? std::string("stdin") : platform::stem_of(file); }
 
 /// The connected parts of a mesh, by vertices at equal positions, in the order of their first triangles.
 std::vector<Mesh> connected_parts(const Mesh& mesh) {

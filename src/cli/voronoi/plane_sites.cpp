@@ -12,6 +12,7 @@
 #include "cli/terminal/tables.h"
 #include "medial_vk/plane_centre_line.h"
 #include "medial_vk/version.h"
+#include "platform/paths.h"
 #include "shape_files/read_shape_file.h"
 
 namespace medial_vk::cli {
@@ -119,7 +120,7 @@ Result<PlaneSites> load_plane_sites(const VoronoiCommandOptions& options, PlaneR
     for (const auto* const assumptions : {&read.value().assumptions, &shape.value().report.assumptions}) {
       for (const std::string& text : *assumptions) record.assumptions.push_back(fmt::format("{}: {}", file, text));
     }
-    record.sites.push_back(std::filesystem::path(file).stem().string());
+    record.sites.push_back(platform::stem_of(file));
     record.input += (is_first ? "" : ", ") + file;
     shapes.push_back(std::move(shape).value());
   }

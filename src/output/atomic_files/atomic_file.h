@@ -1,6 +1,7 @@
 // Output files appear completely or not at all: they are written to an unnamed file in the same folder (O_TMPFILE;
 // under a temporary name where that is not supported), which then gets its name by a link or a rename. A killed process
-// leaves nothing behind, except between a link and the rename that replaces a file.
+// leaves nothing behind, except between a link and the rename that replaces a file. On Windows the file has a temporary
+// name and is deleted when the process ends before that.
 #pragma once
 
 #include <span>
@@ -8,6 +9,7 @@
 #include <string_view>
 
 #include "medial_vk/result.h"
+#include "platform/files.h"
 
 namespace medial_vk {
 
@@ -19,10 +21,6 @@ class AtomicFile {
   /// `may_be_unnamed` false: behaves as if O_TMPFILE were not supported. Errors (all calls): kCannotWrite with the path
   /// and the reason of the system, or kDiskFails if the disk is full, over its quota, read-only or faulty.
   static Result<AtomicFile> create(const std::string& path, bool may_be_unnamed = true);
-  AtomicFile(AtomicFile&& other) noexcept;
-  AtomicFile& operator=(AtomicFile&& other) noexcept;
-  ~AtomicFile();
-
   Status write(std::string_view bytes);
   /// Flushes to the disk, so that a full disk is detected before the file has a name. No write() may follow.
   Status finish();
@@ -31,19 +29,11 @@ class AtomicFile {
 
  private:
   AtomicFile() = default;
-  Status name_it();
-  Error cannot_write(const char* what, int system_error) const;
-  void discard();
+  Status status_of(const platform::Fault& fault) const;
 
-  std::string path_;       // As the caller named it, for messages.
-  std::string target_;     // With symbolic links resolved: the target of the rename.
-  std::string temporary_;  // Empty if written directly, without a name, or published.
-  bool unnamed_ = false;
-  int descriptor_ = -1;
+  std::string path_;  // as the caller named it, for messages
+  platform::NewFile file_;
 };
-
-/// write() until all bytes are written, or an error other than EINTR: then false, and errno has it.
-bool write_all(int descriptor, std::string_view bytes);
 
 struct OutputFile {
   std::string path;  ///< "-": standard output.
@@ -55,7 +45,7 @@ struct OutputFile {
 Status write_files(std::span<const OutputFile> files);
 
 /// A test before hours of work: the folder of `path` exists, and `path` is no folder. Creates nothing. Errors:
-/// kCannotWrite, kDiskFails.
+/// kCannotWrite, kDiskFails; kUsage for a format that this build lacks.
 Status check_writable(const std::string& path);
 
 }  // namespace medial_vk

@@ -1,3 +1,4 @@
+#if defined(MEDIAL_VK_HAS_ZIP)  // else nothing of libzip may be needed to build
 #include "output/numpy_files/npz_reader.h"
 
 #include <fmt/format.h>
@@ -193,3 +194,15 @@ Result<std::map<std::string, NpyArray>> read_npz(std::string_view bytes, const s
 }
 
 }  // namespace medial_vk
+#else
+#include "common/absent_parts.h"
+#include "output/numpy_files/npz_reader.h"
+
+namespace medial_vk {
+
+Result<std::map<std::string, NpyArray>> read_npz(std::string_view, const std::string& name) {
+  return Error{ErrorCode::kInvalidMesh, name + ": " + not_built(".npz", "libzip")};
+}
+
+}  // namespace medial_vk
+#endif

@@ -1,3 +1,4 @@
+#if defined(MEDIAL_VK_HAS_ZIP)  // else nothing of libzip may be needed to build
 #include "output/numpy_files/zip_archive.h"
 
 #include <fmt/format.h>
@@ -69,3 +70,15 @@ Result<std::string> make_zip(std::span<const ZipMember> members) {
 }
 
 }  // namespace medial_vk
+#else
+#include "common/absent_parts.h"
+#include "output/numpy_files/zip_archive.h"
+
+namespace medial_vk {
+
+Result<std::string> make_zip(std::span<const ZipMember>) {
+  return Error{ErrorCode::kUsage, not_built(".npz", "libzip")};
+}
+
+}  // namespace medial_vk
+#endif

@@ -11,6 +11,7 @@
 #include "output/page/embedded_page.h"
 #include "output/page/page_boundary.h"
 #include "output/page/page_parts.h"
+#include "platform/paths.h"
 
 namespace medial_vk {
 namespace {
@@ -102,7 +103,7 @@ std::string report_without_times(const RunRecord& record) {
 }
 
 std::string title_of(const RunRecord& record) {
-  std::string name = record.input == "-" ? "stdin" : std::filesystem::path(record.input).filename().string();
+  std::string name = record.input == "-" ? "stdin" : platform::file_name_of(record.input);
   if (!record.part.empty()) name += ": " + record.part;
   return page::text_in_html(name);
 }

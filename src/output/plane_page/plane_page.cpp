@@ -9,6 +9,7 @@
 #include "medial_vk/version.h"
 #include "output/page/page_parts.h"
 #include "output/plane_page/embedded_plane.h"
+#include "platform/paths.h"
 
 namespace medial_vk {
 namespace {
@@ -97,7 +98,7 @@ void write_axis(std::string& out, const PlaneRecord& record) {
 
 std::string encode_plane_page(const PlaneRecord& record) {
   const page::Template page = page::split(page::embedded_plane());
-  const std::string name = record.input == "-" ? "stdin" : std::filesystem::path(record.input).filename().string();
+  const std::string name = record.input == "-" ? "stdin" : platform::file_name_of(record.input);
   std::string out;
   out.append(page.before_title).append(page::text_in_html(name)).append(page.before_data);
   page::write_json(out, "plane", plane_json(record, name));

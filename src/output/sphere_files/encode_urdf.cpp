@@ -1,4 +1,5 @@
 // A robot whose collision geometry is spheres: the URDF of the input, with the <collision> of each link replaced.
+#if defined(MEDIAL_VK_HAS_XML)  // else nothing of tinyxml2 may be needed to build
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
@@ -68,3 +69,15 @@ Result<std::string> encode_spheres_urdf(const SphereFile& file) {
 }
 
 }  // namespace medial_vk
+#else
+#include "common/absent_parts.h"
+#include "output/sphere_files/encoders.h"
+
+namespace medial_vk {
+
+Result<std::string> encode_spheres_urdf(const SphereFile&) {
+  return Error{ErrorCode::kUsage, not_built("URDF", "tinyxml2")};
+}
+
+}  // namespace medial_vk
+#endif

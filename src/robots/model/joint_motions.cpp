@@ -1,3 +1,4 @@
+#if defined(MEDIAL_VK_HAS_XML)  // else nothing of tinyxml2 may be needed to build
 #include "robots/model/joint_motions.h"
 
 #include <fmt/format.h>
@@ -52,13 +53,13 @@ class MotionReader {
     if (kind == std::end(kKinds)) {
       return at(element, fmt::format("the type {} of a joint is unknown; fixed, revolute, continuous and prismatic "
                                      "joints can be moved",
-                                     quoted(type)));
+                                     medial_vk::quoted(type)));
     }
     joint.kind = kind->second;
     if (joint.kind == JointKind::kFixed) return {};
     if (joint.name.empty()) return at(element, "a <joint> that moves has no name");
     if (!numbers_.emplace(joint.name, index).second) {
-      return at(element, fmt::format("there is another joint {}", quoted(joint.name)));
+      return at(element, fmt::format("there is another joint {}", medial_vk::quoted(joint.name)));
     }
     if (Status status = read_axis(element, joint); !status) return status;
     return joint.kind == JointKind::kContinuous ? Status() : read_limits(element, joint);
@@ -102,7 +103,8 @@ class MotionReader {
     if (other == nullptr) return at(element, "a <mimic> names no joint");
     const auto known = numbers_.find(other);
     if (known == numbers_.end()) {
-      return at(element, fmt::format("a joint mimics {}, which is not there or does not move", quoted(other)));
+      return at(element,
+                fmt::format("a joint mimics {}, which is not there or does not move", medial_vk::quoted(other)));
     }
     Mimic mimic;
     mimic.joint = known->second;
@@ -122,8 +124,8 @@ class MotionReader {
         at = joints_[at].mimic->joint;
       }
       if (joints_[at].mimic && seen[at] == first) {
-        return file_error(
-            name_, fmt::format("the joint {} mimics itself, by way of others or directly", quoted(joints_[at].name)));
+        return file_error(name_, fmt::format("the joint {} mimics itself, by way of others or directly",
+                                             medial_vk::quoted(joints_[at].name)));
       }
     }
     return {};
@@ -141,3 +143,4 @@ Status read_motions(const XMLElement& root, const std::string& name, std::vector
 }
 
 }  // namespace medial_vk
+#endif

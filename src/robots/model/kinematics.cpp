@@ -95,8 +95,8 @@ Status Kinematics::place(std::span<const double> values, std::span<Pose> poses) 
     make_perpendicular(pose);
     poses[step.child] = pose;
     if (is_finite(pose)) continue;
-    return Error{ErrorCode::kInvalidMesh,
-                 fmt::format("the pose of the link {} is beyond the range of numbers", quoted(names_[step.child]))};
+    return Error{ErrorCode::kInvalidMesh, fmt::format("the pose of the link {} is beyond the range of numbers",
+                                                      medial_vk::quoted(names_[step.child]))};
   }
   return {};
 }

@@ -1,7 +1,6 @@
 #include "robots/model/read_urdf.h"
 
 #include <fmt/format.h>
-#include <tinyxml2.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -12,10 +11,16 @@
 #include <utility>
 
 #include "input/text_scanner.h"
+#include "platform/paths.h"
+#if defined(MEDIAL_VK_HAS_XML)
 #include "robots/model/joint_motions.h"
 #include "robots/model/robot_xml.h"
+#else
+#include "common/absent_parts.h"
+#endif
 
 namespace medial_vk {
+#if defined(MEDIAL_VK_HAS_XML)
 namespace {
 
 using tinyxml2::XMLElement;
@@ -46,7 +51,7 @@ class UrdfReader {
       Link link;
       link.name = name;
       if (!numbers_.emplace(link.name, static_cast<std::uint32_t>(robot_.links.size())).second) {
-        return at(*e, fmt::format("there is another link {}", quoted(link.name)));
+        return at(*e, fmt::format("there is another link {}", medial_vk::quoted(link.name)));
       }
       if (Status status = read_geometries(*e, "collision", link.collision); !status) return status;
       if (Status status = read_geometries(*e, "visual", link.visual); !status) return status;
@@ -86,7 +91,7 @@ class UrdfReader {
                                         : GeometryKind::kMesh;
     if (geometry.kind == GeometryKind::kMesh) {
       return at(shape, fmt::format("the geometry {} is unknown; there are mesh, box, cylinder, sphere and capsule",
-                                   quoted(kind)));
+                                   medial_vk::quoted(kind)));
     }
     if (Status status = read_length(shape, "radius", geometry.size[0]); !status) return status;
     if (geometry.kind == GeometryKind::kSphere) return {};
@@ -156,7 +161,8 @@ class UrdfReader {
     if (name == nullptr) return at(joint, fmt::format("a <joint> has no <{} link=...>", end));
     const auto known = numbers_.find(name);
     if (known == numbers_.end()) {
-      return at(*element, fmt::format("the {} of a joint is the link {}, which is not there", end, quoted(name)));
+      return at(*element,
+                fmt::format("the {} of a joint is the link {}, which is not there", end, medial_vk::quoted(name)));
     }
     link = known->second;
     return {};
@@ -167,8 +173,8 @@ class UrdfReader {
     std::vector<std::uint32_t> parent(robot_.links.size(), kNone);
     for (const Joint& joint : robot_.joints) {
       if (parent[joint.child] != kNone) {
-        return file_error(
-            name_, fmt::format("the link {} is the child of two joints", quoted(robot_.links[joint.child].name)));
+        return file_error(name_, fmt::format("the link {} is the child of two joints",
+                                             medial_vk::quoted(robot_.links[joint.child].name)));
       }
       parent[joint.child] = joint.parent;
     }
@@ -178,8 +184,8 @@ class UrdfReader {
       std::uint32_t at = link;
       for (; at != kNone && seen[at] == kNone; at = parent[at]) seen[at] = link;
       if (at != kNone && seen[at] == link) {
-        return file_error(name_,
-                          fmt::format("joints lead from the link {} back to itself", quoted(robot_.links[at].name)));
+        return file_error(name_, fmt::format("joints lead from the link {} back to itself",
+                                             medial_vk::quoted(robot_.links[at].name)));
       }
     }
     return {};
@@ -198,9 +204,15 @@ Result<Robot> read_urdf(std::string_view bytes, const std::string& name, UrdfDet
   return UrdfReader(name, detail).read(bytes);
 }
 
+#else
+Result<Robot> read_urdf(std::string_view, const std::string& name, UrdfDetail) {
+  return file_error(name, not_built("URDF", "tinyxml2"));
+}
+#endif
+
 Result<std::string> read_urdf_bytes(const std::string& path) {
   errno = 0;
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file(platform::path_of(path), std::ios::binary);
   const auto cannot_read = [&] {
     return file_error(path, fmt::format("cannot be read: {}", std::strerror(errno == 0 ? EIO : errno)));
   };

@@ -1,3 +1,4 @@
+#if defined(MEDIAL_VK_HAS_XML)  // else nothing of tinyxml2 may be needed to build
 #include "robots/model/robot_xml.h"
 
 #include <fmt/format.h>
@@ -20,15 +21,16 @@ Status read_numbers(const std::string& name, const tinyxml2::XMLElement& element
   TextScanner scanner(text, 0, false);
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const std::string_view word = scanner.word_across_lines();
-    if (word.empty()) return fault(fmt::format("{} has {} of {} numbers", quoted(text), i, numbers.size()));
+    if (word.empty()) return fault(fmt::format("{} has {} of {} numbers", medial_vk::quoted(text), i, numbers.size()));
     std::string_view why;
-    if (!parse_coordinate(word, numbers[i], why)) return fault(fmt::format("{} {}", quoted(word), why));
+    if (!parse_coordinate(word, numbers[i], why)) return fault(fmt::format("{} {}", medial_vk::quoted(word), why));
   }
   if (!scanner.word_across_lines().empty()) {
-    return fault(
-        fmt::format("{} has more than {}", quoted(text), numbers.size() == 1 ? "one number" : "three numbers"));
+    return fault(fmt::format("{} has more than {}", medial_vk::quoted(text),
+                             numbers.size() == 1 ? "one number" : "three numbers"));
   }
   return {};
 }
 
 }  // namespace medial_vk
+#endif

@@ -1,3 +1,4 @@
+#if defined(MEDIAL_VK_HAS_XML)  // else nothing of tinyxml2 may be needed to build
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,7 +35,7 @@ Result<std::vector<LinkPair>> read_srdf(std::string_view bytes, const std::strin
       if (link == nullptr) return element_error(name, *e, fmt::format("a <{}> has no {}", kElement, attributes[i]));
       const auto known = numbers.find(link);
       if (known == numbers.end()) {
-        return element_error(name, *e, fmt::format("the robot has no link {}", quoted(link)));
+        return element_error(name, *e, fmt::format("the robot has no link {}", medial_vk::quoted(link)));
       }
       ends[i] = known->second;
     }
@@ -65,3 +66,19 @@ std::string encode_srdf(const Robot& robot, std::span<const ReasonedPairs> left_
 }
 
 }  // namespace medial_vk
+#else
+#include "common/absent_parts.h"
+#include "input/text_scanner.h"
+#include "robots/model/link_pairs.h"
+
+namespace medial_vk {
+
+Result<std::vector<LinkPair>> read_srdf(std::string_view, const std::string& name, const Robot&) {
+  return file_error(name, not_built("SRDF", "tinyxml2"));
+}
+
+// No build without the library has read a robot.
+std::string encode_srdf(const Robot&, std::span<const ReasonedPairs>) { return {}; }
+
+}  // namespace medial_vk
+#endif

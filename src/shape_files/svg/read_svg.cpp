@@ -1,3 +1,4 @@
+#if defined(MEDIAL_VK_HAS_XML)  // else nothing of tinyxml2 may be needed to build
 #include "shape_files/svg/read_svg.h"
 
 #include <fmt/format.h>
@@ -188,3 +189,16 @@ Result<SvgAreas> read_svg(std::string_view bytes, const std::string& name, std::
 }
 
 }  // namespace medial_vk
+#else
+#include "common/absent_parts.h"
+#include "input/text_scanner.h"
+#include "shape_files/svg/read_svg.h"
+
+namespace medial_vk {
+
+Result<SvgAreas> read_svg(std::string_view, const std::string& name, std::optional<double>, double) {
+  return file_error(name, not_built("SVG", "tinyxml2"));
+}
+
+}  // namespace medial_vk
+#endif

@@ -1,3 +1,4 @@
+#if defined(MEDIAL_VK_HAS_XML)  // else nothing of tinyxml2 may be needed to build
 #include "shape_files/svg/svg_drawing.h"
 
 #include <fmt/format.h>
@@ -262,3 +263,4 @@ class SvgVisitor {
 SvgDrawing collect_figures(const XMLElement& root, std::uint64_t bytes) { return SvgVisitor(root, bytes).read(); }
 
 }  // namespace medial_vk
+#endif

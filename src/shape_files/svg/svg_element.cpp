@@ -1,3 +1,4 @@
+#if defined(MEDIAL_VK_HAS_XML)  // else nothing of tinyxml2 may be needed to build
 #include "shape_files/svg/svg_element.h"
 
 #include <fmt/format.h>
@@ -161,3 +162,4 @@ SvgMatrix fit_view_box(const tinyxml2::XMLElement& element, const SvgViewBox& bo
 }
 
 }  // namespace medial_vk
+#endif

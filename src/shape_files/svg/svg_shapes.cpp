@@ -1,3 +1,4 @@
+#if defined(MEDIAL_VK_HAS_XML)  // else nothing of tinyxml2 may be needed to build
 #include "shape_files/svg/svg_shapes.h"
 
 #include <fmt/format.h>
@@ -107,3 +108,4 @@ std::vector<Outline> outlines_of(const XMLElement& element, std::string_view kin
 }
 
 }  // namespace medial_vk
+#endif

@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <random>
 #include <string>
 #include <utility>
 
@@ -16,9 +17,10 @@ namespace medial_vk::test {
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "medial_vk_test_XXXXXX").string();
-    const char* made = mkdtemp(pattern.data());
-    path_ = made != nullptr ? made : "";
+    std::random_device random;
+    do {  // until the name is new
+      path_ = std::filesystem::temp_directory_path() / ("medial_vk_test_" + std::to_string(random()));
+    } while (!std::filesystem::create_directory(path_));
   }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
@@ -47,11 +49,15 @@ class ScopedEnvironment {
 
  private:
   void set(const char* value) {
+#if defined(_WIN32)
+    _putenv_s(name_.c_str(), value != nullptr ? value : "");
+#else
     if (value != nullptr) {
       setenv(name_.c_str(), value, 1);
     } else {
       unsetenv(name_.c_str());
     }
+#endif
   }
   std::string name_;
   std::string old_;

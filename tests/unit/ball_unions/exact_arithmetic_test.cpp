@@ -73,6 +73,18 @@ std::pair<Expansion, ExactNumber> expression(RandomNumbers& random, ExpansionMat
   }
 }
 
+TEST(TwoProduct, LosesNothing) {
+  RandomNumbers random(7);
+  for (int i = 0; i < 20'000; ++i) {
+    const double a = random.number(200);
+    const double b = random.number(200);
+    for (const auto& [high, low] : {two_product(a, b), two_product_of_halves(a, b)}) {
+      ASSERT_EQ(high, a * b);
+      ASSERT_EQ((ExactNumber(a) * b - high - low).sign(), 0) << a << ' ' << b;
+    }
+  }
+}
+
 TEST(Expansion, IsExact) {
   ExpansionArena arena;
   ExpansionMath math(arena);

@@ -10,6 +10,7 @@
 
 #include "cli/options/declarations.h"
 #include "common/file_extension.h"
+#include "platform/paths.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -24,7 +25,7 @@ struct LengthTexts {
 };
 
 std::string default_plane_output(const std::string& shape) {
-  return (shape == "-" ? std::string("stdin") : std::filesystem::path(shape).stem().string()) + ".axis.json";
+  return (shape == "-" ? std::string("stdin") : platform::stem_of(shape)) + ".axis.json";
 }
 
 void declare_plane(CLI::App& app, PlaneCommandOptions& options, LengthTexts& lengths) {

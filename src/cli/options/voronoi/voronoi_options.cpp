@@ -10,6 +10,7 @@
 
 #include "cli/options/declarations.h"
 #include "common/file_extension.h"
+#include "platform/paths.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -156,7 +157,7 @@ Status check_site_files(const VoronoiCommandOptions& options) {
 std::string default_sites_output(const VoronoiCommandOptions& options) {
   std::string stem = "sites";
   if (!options.files.empty()) {
-    stem = options.files[0] == "-" ? std::string("stdin") : std::filesystem::path(options.files[0]).stem().string();
+    stem = options.files[0] == "-" ? std::string("stdin") : platform::stem_of(options.files[0]);
   }
   return stem + (options.in_plane ? ".voronoi.json" : ".voronoi.ply");
 }

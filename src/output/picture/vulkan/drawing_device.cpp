@@ -1,11 +1,12 @@
 #include "output/picture/vulkan/drawing_device.h"
 
-#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <array>
 #include <cstdio>
 #include <utility>
+
+#include "platform/libraries.h"
 
 namespace medial_vk::picture {
 namespace {
@@ -30,10 +31,10 @@ VkDebugUtilsMessengerCreateInfoEXT messenger_info(std::atomic<std::uint64_t>* co
 
 /// The library is never closed, because the runtime uses it too.
 PFN_vkGetInstanceProcAddr load_vulkan() {
-  void* library = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) library = dlopen("libvulkan.so", RTLD_NOW | RTLD_LOCAL);
+  std::string problem;
+  void* const library = platform::load_vulkan(problem);
   if (library == nullptr) throw DrawingError("there is no Vulkan loader");
-  const auto get = reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(library, "vkGetInstanceProcAddr"));
+  const auto get = reinterpret_cast<PFN_vkGetInstanceProcAddr>(platform::function_of(library, "vkGetInstanceProcAddr"));
   if (get == nullptr) throw DrawingError("the Vulkan loader is broken");
   return get;
 }

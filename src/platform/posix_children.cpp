@@ -1,5 +1,3 @@
-#include "cli/doctor/child_process.h"
-
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
@@ -17,10 +15,12 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
-#include <string_view>
 #include <utility>
 
-namespace medial_vk::cli {
+#include "platform/files.h"
+#include "platform/processes.h"
+
+namespace medial_vk::platform {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -56,16 +56,8 @@ class Pipe {
   std::array<int, 2> ends_ = {-1, -1};
 };
 
-void write_all(int file, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(file, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return;  // the parent is gone
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-}
-
-/// Without the destructors of this copy's objects, and of drivers, whose end is not the subject.
+/// Without the destructors of this copy's objects, and of drivers, whose end is not the subject. A failed write: the
+/// parent is gone.
 [[noreturn]] void run_and_exit(const std::function<std::string()>& work, const Pipe& result, const Pipe& messages,
                                pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -160,19 +152,24 @@ class Watch {
 
 }  // namespace
 
-Result<ChildOutcome> run_in_child(const std::function<std::string()>& work, std::chrono::milliseconds limit) {
+ChildOutcome run_in_child(const std::function<std::string()>& work, std::chrono::milliseconds limit,
+                          std::string& problem) {
   Pipe result, messages;
   if (!result.is_open() || !messages.is_open()) {
-    return Error{ErrorCode::kInternal, fmt::format("no pipe to another process: {}", std::strerror(errno))};
+    problem = fmt::format("no pipe to another process: {}", std::strerror(errno));
+    return {};
   }
   for (std::FILE* stream : {stdout, stderr}) std::fflush(stream);  // or the copy would write it, too
   const pid_t parent = ::getpid();
   const pid_t child = ::fork();
-  if (child < 0) return Error{ErrorCode::kInternal, fmt::format("no other process: {}", std::strerror(errno))};
+  if (child < 0) {
+    problem = fmt::format("no other process: {}", std::strerror(errno));
+    return {};
+  }
   if (child == 0) run_and_exit(work, result, messages, parent);
   result.close_writer();
   messages.close_writer();
   return Watch(child, result.reader(), messages.reader()).wait(limit);
 }
 
-}  // namespace medial_vk::cli
+}  // namespace medial_vk::platform

@@ -1,0 +1,5 @@
+# CLI11 from MEDIAL_VK_TARGET_HEADERS (../header_packages.cmake).
+if(NOT TARGET CLI11::CLI11)
+  add_library(CLI11::CLI11 INTERFACE IMPORTED)
+endif()
+set(CLI11_FOUND TRUE)

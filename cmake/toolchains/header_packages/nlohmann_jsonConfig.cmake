@@ -1,0 +1,5 @@
+# nlohmann_json from MEDIAL_VK_TARGET_HEADERS (../header_packages.cmake).
+if(NOT TARGET nlohmann_json::nlohmann_json)
+  add_library(nlohmann_json::nlohmann_json INTERFACE IMPORTED)
+endif()
+set(nlohmann_json_FOUND TRUE)

@@ -1,0 +1,379 @@
+"""Runs commands of medial-vk for Windows under Wine, and the same ones of this system's build, and compares what they write.
+
+    compare_commands.py NATIVE MEDIAL_VK.exe INTERRUPT.exe MAKE_MODEL WORK [STEP ...]
+
+Files and standard output have the same bytes, but for the files in LAST_DIGITS, and exit codes are equal. Left out of the comparison are times: the key
+`seconds` of JSON, the columns `seconds...` of the table of a batch, and standard error, whose summary has them; of an error
+its message is compared. The column `file` of that table has the whole path, which differs. Called by scripts/test-windows. A STEP is a name in STEPS.
+"""
+import csv
+import io
+import json
+import math
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+NATIVE, WINDOWS, INTERRUPT, MAKE_MODEL, WORK = (pathlib.Path(word).resolve() for word in sys.argv[1:6])
+failures = []
+compared = 0
+declared = []  # files that differ, as LAST_DIGITS allows
+
+
+def note(ok, what):
+    print(("ok    " if ok else "FAILS ") + what, flush=True)
+    if not ok:
+        failures.append(what)
+
+
+def run(program, words, folder, **options):
+    command = ([] if program == NATIVE else ["wine"]) + [str(program), *words]
+    return subprocess.run(command, cwd=folder, capture_output=True, timeout=900, **options)
+
+
+# ---- Inputs.
+def obj_of(vertices, triangles, end="\n"):
+    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in vertices] + [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in triangles]
+    return end.join(lines) + end
+
+
+def ellipsoid(around, along, bend=0.0, shift=0.0):
+    """A closed mesh of 2 * around * (along - 1) triangles, bent along x."""
+    points = [(0.0, 0.0, 1.0)]
+    for i in range(1, along):
+        for j in range(around):
+            v, u = math.pi * i / along, 2 * math.pi * (j + 0.5 * i) / around
+            points.append((1.7 * math.sin(v) * math.cos(u), 0.9 * math.sin(v) * math.sin(u), math.cos(v)))
+    points.append((0.0, 0.0, -1.0))
+    triangles = []
+    at = lambda i, j: 1 + (i - 1) * around + j % around
+    for j in range(around):
+        triangles.append((0, at(1, j), at(1, j + 1)))
+        triangles.append((len(points) - 1, at(along - 1, j + 1), at(along - 1, j)))
+        for i in range(1, along - 1):
+            triangles.append((at(i, j), at(i + 1, j), at(i, j + 1)))
+            triangles.append((at(i, j + 1), at(i + 1, j), at(i + 1, j + 1)))
+    return [(x + shift, y, z + bend * x * x) for x, y, z in points], triangles
+
+
+def box(sides):
+    corners = [(x, y, z) for x in (0, sides[0]) for y in (0, sides[1]) for z in (0, sides[2])]
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    return corners, [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
+
+
+def make_inputs(folder):
+    folder.mkdir(parents=True)
+    write = lambda name, text: (folder / name).write_bytes(text.encode())
+    write("egg.obj", obj_of(*ellipsoid(16, 9)))
+    write("egg_bent.obj", obj_of(*ellipsoid(16, 9, 0.1)))
+    write("egg_more.obj", obj_of(*ellipsoid(16, 9, 0.2)))
+    write("far.obj", obj_of(*ellipsoid(12, 7, 0.0, 4.0)))
+    write("box.obj", obj_of(*box((3.0, 1.0, 0.5))))
+    write("crlf.obj", obj_of(*ellipsoid(16, 9), end="\r\n"))
+    vertices, triangles = box((3.0, 1.0, 0.5))
+    facets = ["solid box"]
+    for t in triangles:
+        facets += ["facet normal 0 0 0", "outer loop"]
+        facets += [f"vertex {x} {y} {z}" for x, y, z in (vertices[i] for i in t)] + ["endloop", "endfacet"]
+    write("box.stl", "\n".join(facets + ["endsolid box", ""]))
+    write("crlf.stl", "\r\n".join(facets + ["endsolid box", ""]))
+    off = ["OFF", f"{len(vertices)} {len(triangles)} 0"] + [f"{x} {y} {z}" for x, y, z in vertices]
+    off += [f"3 {a} {b} {c}" for a, b, c in triangles]
+    write("box.off", "\n".join(off) + "\n")
+    write("crlf.off", "\r\n".join(off) + "\r\n")
+    ply = ["ply", "format ascii 1.0", f"element vertex {len(vertices)}", "property double x", "property double y",
+           "property double z", f"element face {len(triangles)}", "property list uchar int vertex_indices", "end_header"]
+    ply += [f"{x} {y} {z}" for x, y, z in vertices] + [f"3 {a} {b} {c}" for a, b, c in triangles]
+    write("box.ply", "\n".join(ply) + "\n")
+    write("crlf.ply", "\r\n".join(ply) + "\r\n")
+    poses = "x,y,z,qx,qy,qz,qw\n0,0,0,0,0,0,1\n0.5,0.25,3,0,0,0.6,0.8\n-1,2,0.5,0.48,0.6,0,0.64\n"
+    write("poses.csv", poses)
+    write("poses_crlf.csv", poses.replace("\n", "\r\n"))
+    wkt = "POLYGON((0 0,4 0,4 1,1 1,1 3,0 3,0 0))\n"
+    write("shape.wkt", wkt)
+    write("shape_crlf.wkt", wkt.replace("\n", "\r\n"))
+    write("apart.wkt", "POLYGON((2 2,5 2,5 3,2 3,2 2))\n")
+    write("ring.csv", "x,y\n0,0\n4,0\n4,1\n1,1\n1,3\n0,3\n")
+    write("ring_crlf.csv", "x,y\r\n0,0\r\n4,0\r\n4,1\r\n1,1\r\n1,3\r\n0,3\r\n")
+    shape = {"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 1], [1, 1], [1, 3], [0, 3], [0, 0]]]}
+    write("shape.geojson", json.dumps(shape, indent=1))
+    write("shape_crlf.geojson", json.dumps(shape, indent=1).replace("\n", "\r\n"))
+    write("list.txt", "egg.obj\nbox.stl\n")
+    write("list_crlf.txt", "egg.obj\r\nbox.stl\r\n")
+    write("broken.obj", "v 0 0 0\nf 1 2 3\n")
+    subprocess.run([str(MAKE_MODEL), "turtle.obj"], cwd=folder, check=True, capture_output=True)
+
+
+# ---- Comparison.
+def without_times(value):
+    if isinstance(value, dict):
+        return {key: without_times(inner) for key, inner in value.items() if key != "seconds"}
+    return [without_times(inner) for inner in value] if isinstance(value, list) else value
+
+
+def same_table(a, b):
+    tables = [list(csv.DictReader(io.StringIO(text.decode()))) for text in (a, b)]
+    for row in (row for table in tables for row in table):
+        for name in [name for name in row if name.startswith("seconds") or name == "file"]:
+            del row[name]
+    return tables[0] == tables[1]
+
+
+def messages(outcome):
+    return [line for line in outcome.stderr.decode().splitlines() if line.startswith("medial-vk: ")]
+
+
+def same_json(a, b):
+    return without_times(json.loads(a)) == without_times(json.loads(b))
+
+
+def files_of(folder, inputs):
+    return {p.relative_to(folder).as_posix(): p.read_bytes() for p in folder.rglob("*")
+            if p.is_file() and p.relative_to(folder).as_posix() not in inputs}
+
+
+def difference(a, b):
+    """Where two files differ: the bytes, and for tables the greatest difference of numbers."""
+    at = next((i for i, (x, y) in enumerate(zip(a, b)) if x != y), min(len(a), len(b)))
+    text = f"{len(a)} and {len(b)} bytes, from byte {at}: {a[max(0, at - 20):at + 30]!r} and {b[max(0, at - 20):at + 30]!r}"
+    return text
+
+
+def compare(name, words, stdin=None):
+    """Runs a command in two copies of the inputs, and compares all that it writes."""
+    global compared
+    outcomes, contents = [], []
+    for program in (NATIVE, WINDOWS):
+        folder = WORK / ("native" if program == NATIVE else "windows") / name
+        shutil.copytree(WORK / "inputs", folder)
+        outcomes.append(run(program, words, folder, input=stdin))
+        contents.append(files_of(folder, INPUTS))
+    native, windows = outcomes
+    wrong = []
+    if native.returncode != windows.returncode:
+        wrong.append(f"exit codes {native.returncode} and {windows.returncode}: {windows.stderr.decode()[-300:]}")
+    # Reports of --check hold worst cases, so they follow the numbers.
+    may_differ = LAST_DIGITS.get(name, set())
+    if not may_differ and native.stdout != windows.stdout and not (native.stdout[:1] == b"{" and same_json(native.stdout, windows.stdout)):
+        wrong.append("standard output: " + difference(native.stdout, windows.stdout))
+    if messages(native) != messages(windows):
+        wrong.append(f"messages {messages(native)} and {messages(windows)}")
+    if set(contents[0]) != set(contents[1]):
+        wrong.append(f"files {sorted(contents[0])} and {sorted(contents[1])}")
+    for file in sorted(set(contents[0]) & set(contents[1])):
+        a, b = contents[0][file], contents[1][file]
+        compared += 1
+        if a == b or file.endswith(".json") and same_json(a, b):
+            continue
+        if file.endswith("batch.csv") and same_table(a, b):
+            continue
+        if file in may_differ:
+            declared.append(f"{name}/{file}")
+            continue
+        wrong.append(f"{file}: {difference(a, b)}")
+    note(not wrong, f"{name}: medial-vk {' '.join(words)}" + "".join("\n        " + w for w in wrong))
+    return native, windows
+
+
+COMMANDS = {
+    "version": ["--help"],
+    "devices": ["--list-devices"],
+    "analysis": ["egg.obj", "--resolution", "32", "--check", "--report", "egg.json", "--html", "egg.html", "--medial-mesh",
+                 "egg.ply", "--ball-volumes", "egg.csv", "--sheet-curve", "curve.svg", "--picture", "egg.png"],
+    "analysis_balls": ["egg.obj", "--resolution", "16", "--mesh-spheres"],
+    "analysis_json": ["box.stl", "--resolution", "30", "-o", "box.json", "--sheet-curve", "curve.csv"],
+    "analysis_csv": ["box.off", "--resolution", "30", "-o", "box.csv", "--medial-mesh", "box.ma"],
+    "analysis_glb": ["box.ply", "--resolution", "20", "-o", "box.glb"],
+    "analysis_ascii": ["egg.obj", "--resolution", "20", "--ascii", "-o", "-"],
+    "analysis_outside": ["box.obj", "--resolution", "24", "--side", "outside"],
+    "analysis_thesis": ["egg.obj", "--resolution", "20", "--mode", "thesis"],
+    "analysis_reference": ["egg.obj", "--resolution", "12", "--backend", "cpu"],
+    "analysis_perturbed": ["box.obj", "--resolution", "20", "--perturb", "0.001", "--seed", "7"],
+    "analysis_pruned": ["turtle.obj", "--resolution", "30", "--keep-volume", "0.9", "--simplify"],
+    "thickness": ["egg.obj", "--resolution", "24", "--thickness", "--curvature", "--boundary", "egg.vtp", "--thickness-histogram",
+                  "egg.svg", "--thickness-points", "points.csv", "--least-wall", "--report", "report.json"],
+    "boundary": ["box.obj", "--resolution", "16", "--boundary", "b.glb", "--boundary-edge", "0.2", "--thickness-histogram", "h.csv",
+                 "--picture", "b.png", "--show", "boundary"],
+    "wall": ["box.obj", "--resolution", "16", "--min-wall", "0.6"],
+    "spheres": ["spheres", "egg.obj", "--count", "8", "--check", "--report", "r.json", "--picture", "s.png", "--histogram", "s.svg"],
+    "spheres_cover": ["spheres", "egg.obj", "--count", "12", "--contract", "cover", "-o", "s.json", "--check"],
+    "spheres_balanced": ["spheres", "box.obj", "--count", "6", "--contract", "balanced", "-o", "s.yml", "--format", "curobo"],
+    "distance": ["distance", "egg.obj", "far.obj", "--check", "--picture", "d.png", "--html", "d.html"],
+    "collisions": ["distance", "egg.obj", "box.obj", "--poses", "poses.csv", "-o", "d.csv"],
+    "follow": ["follow", "egg.obj", "egg_bent.obj", "egg_more.obj", "--count", "16", "-o", "f.csv", "-o", "f.glb", "--html", "f.html",
+               "--picture", "f.png", "--check"],
+    "follow_pattern": ["follow", "egg*.obj", "--count", "8", "--contract", "cover", "-o", "f.csv", "--check"],
+    "plane": ["plane", "shape.wkt", "-o", "a.json", "--picture", "a.png", "--html", "a.html", "--check"],
+    "plane_pruned": ["plane", "ring.csv", "--prune-significance", "5%", "-o", "a.geojson"],
+    "plane_svg": ["plane", "shape.geojson", "-o", "a.svg"],
+    "plane_slice": ["plane", "egg.obj", "--slice", "z=50%", "-o", "a.csv"],
+    "voronoi": ["voronoi", "egg.obj", "far.obj", "--resolution", "20", "--picture", "v.png", "--roadmap", "v.json", "--html", "v.html",
+                "--check"],
+    "voronoi_plane": ["voronoi", "shape.wkt", "apart.wkt", "-o", "v.svg"],
+    "batch": ["batch", "list.txt", "-o", "out", "--resolution", "20", "--report", ".json", "--picture", ".png"],
+    "missing_file": ["nowhere.obj"],
+    "broken_file": ["broken.obj"],
+    "wrong_option": ["egg.obj", "--resolution", "none"],
+    "missing_folder": ["egg.obj", "--resolution", "10", "-o", "no/such/folder/egg.ply"],
+    "folder_as_file": ["egg.obj", "--resolution", "10", "-o", "."],
+}
+# Files in which hypot(), atan2() and other functions of the C runtime, whose last digits differ (docs/windows.md), reach the
+# numbers, or decide between choices that are equally good. Both results pass --check, or their proofs.
+LAST_DIGITS = {
+    "analysis": {"egg.csv", "egg.ply"}, "thickness": {"egg.vtp", "points.csv", "report.json"},
+    "spheres": {"egg.spheres.csv", "r.json", "s.png", "s.svg"}, "spheres_cover": {"s.json"}, "spheres_balanced": {"s.yml"},
+    "follow": {"f.csv", "f.glb", "f.html", "f.png"}, "follow_pattern": {"f.csv"},
+    "curvature": {"c.csv", "c.json"}, "curvature_source": {"c.ply"},
+}
+# Parts that the build for Windows has not: what it says.
+ABSENT = {
+    "npz": (["egg.obj", "--resolution", "10", "-o", "egg.npz"], 2, "this build writes no .npz files, for which it needs libzip"),
+    "urdf": (["spheres", "robot.urdf", "--count-per-link", "4", "-o", "s.csv"], 3, "this build reads no URDF files"),
+    "svg": (["plane", "letter.svg"], 3, "this build reads no SVG files"),
+    "gltf": (["scene.gltf"], 3, "this build reads no .gltf files"),
+}
+
+
+def compare_all():
+    for name, words in COMMANDS.items():
+        compare(name, words)
+    # The balls of one command are the input of the next one.
+    for program, folder in ((NATIVE, "native"), (WINDOWS, "windows")):
+        shutil.copy(WORK / folder / "analysis" / "egg.medial.ply", WORK / "inputs" / f"{folder}.medial.ply")
+    INPUTS.update({"native.medial.ply", "windows.medial.ply"})
+    compare("curvature", ["curvature", "windows.medial.ply", "-o", "c.csv", "--report", "c.json"])
+    compare("curvature_source", ["curvature", "native.medial.ply", "-o", "c.ply", "--method", "source"])
+    compare("standard_input", ["-", "--resolution", "16", "-o", "-"], stdin=(WORK / "inputs" / "egg.obj").read_bytes())
+
+
+def compare_line_ends():
+    """Files with CRLF give what the same files with LF give."""
+    for name, words in {
+        "obj": ["FILE.obj", "--resolution", "16", "-o", "out.ply"], "stl": ["FILE.stl", "--resolution", "16", "-o", "out.ply"],
+        "off": ["FILE.off", "--resolution", "16", "-o", "out.ply"], "ply": ["FILE.ply", "--resolution", "16", "-o", "out.ply"],
+        "wkt": ["plane", "FILE.wkt", "-o", "out.csv"], "geojson": ["plane", "FILE.geojson", "-o", "out.csv"],
+        "ring": ["plane", "FILE.csv", "-o", "out.csv"], "poses": ["distance", "egg.obj", "far.obj", "--poses", "FILE.csv", "-o", "out.csv"],
+        "list": ["batch", "FILE.txt", "-o", "out", "--resolution", "12", "-q"],
+    }.items():
+        stems = {"obj": ("egg", "crlf"), "wkt": ("shape", "shape_crlf"), "geojson": ("shape", "shape_crlf"),
+                 "ring": ("ring", "ring_crlf"), "poses": ("poses", "poses_crlf"), "list": ("list", "list_crlf")}.get(
+                     name, ("box", "crlf"))
+        found = []
+        for stem in stems:
+            folder = WORK / "ends" / name / stem
+            shutil.copytree(WORK / "inputs", folder)
+            outcome = run(WINDOWS, [word.replace("FILE", stem) for word in words], folder)
+            files = {path: data for path, data in files_of(folder, INPUTS).items() if not path.endswith(("batch.csv", ".lock"))}
+            found.append((outcome.returncode, outcome.stdout, files))
+        # Comments in a PLY name no input; JSON would.
+        note(found[0] == found[1] and found[0][0] == 0 and found[0][2] != {}, f"CRLF: {name}")
+
+
+def check_absent():
+    folder = WORK / "absent"
+    shutil.copytree(WORK / "inputs", folder)
+    (folder / "robot.urdf").write_text('<robot name="r"><link name="a"/></robot>')
+    (folder / "letter.svg").write_text('<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0h4v1z"/></svg>')
+    (folder / "scene.gltf").write_text('{"asset": {"version": "2.0"}}')
+    for name, (words, code, text) in ABSENT.items():
+        outcome = run(WINDOWS, words, folder)
+        said = outcome.stderr.decode()
+        note(outcome.returncode == code and text in said, f"absent: {name}: {outcome.returncode}, {said.strip()}")
+    said = run(WINDOWS, ["--version"], folder).stdout.decode()
+    note(all(f"without {part}: " in said for part in ("assimp", "libzip", "tinyxml2")), "absent: --version")
+
+
+def check_paths():
+    """Names beyond ASCII, and paths of more than 260 characters, absolute and relative."""
+    folder = WORK / "paths" / "Lösung – 物体 🐢"
+    folder.mkdir(parents=True)
+    source = (WORK / "inputs" / "egg.obj").read_bytes()
+    expected = WORK / "paths" / "expected.ply"
+    run(NATIVE, [str(WORK / "inputs" / "egg.obj"), "--resolution", "16", "-q", "-o", str(expected)], WORK)
+    for name, at in {"beyond ASCII": folder / "Körper 体.obj",
+                     "long": folder.joinpath(*["a folder with a long name " + str(i) * 20 for i in range(7)], "egg.obj")}.items():
+        at.parent.mkdir(parents=True, exist_ok=True)
+        at.write_bytes(source)
+        for kind, word in {"relative": at.relative_to(folder), "absolute": "Z:" + str(at)}.items():
+            made = at.with_suffix(f".{kind}.ply")
+            word_out = made.relative_to(folder) if kind == "relative" else "Z:" + str(made)
+            outcome = run(WINDOWS, [str(word), "--resolution", "16", "-q", "-o", str(word_out)], folder)
+            ok = outcome.returncode == 0 and made.exists() and made.read_bytes() == expected.read_bytes()
+            note(ok, f"paths: {name}, {kind}, {len(str(at))} characters {outcome.stderr.decode().strip()[-200:]}")
+        left = [p.name for p in at.parent.iterdir() if p.name.startswith(".medial-vk")]
+        note(not left, f"paths: nothing is left beside {name} {left}")
+    (folder / "Stücke").mkdir()
+    (folder / "Stücke" / "ä.obj").write_bytes(source)
+    outcome = run(WINDOWS, ["batch", "Stücke", "-o", "Ergebnisse", "--resolution", "12", "-q"], folder)
+    table = folder / "Ergebnisse" / "batch.csv"
+    note(outcome.returncode == 0 and table.exists() and "ä" in table.read_text() and (folder / "Ergebnisse" / "ä.obj.medial.ply").exists(),
+         f"paths: batch of a folder beyond ASCII {outcome.stderr.decode().strip()[-200:]}")
+
+
+def check_batch_lock_and_resume():
+    folder = WORK / "resume"
+    shutil.copytree(WORK / "inputs", folder)
+    words = ["batch", "list.txt", "-o", "out", "--resolution", "20"]
+    first, again = run(WINDOWS, words, folder), run(WINDOWS, words, folder)
+    note(first.returncode == 0 and again.returncode == 0, "batch: a second run goes on where the first has ended")
+    rows = (folder / "out" / "batch.csv").read_text().splitlines()
+    note(len(rows) == 3, f"batch: {len(rows) - 1} lines for two meshes")
+    slow = subprocess.Popen(["wine", str(WINDOWS), "batch", "turtle.obj", "-o", "other", "--resolution", "120"], cwd=folder,
+                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    for _ in range(600):
+        if (folder / "other" / ".medial-vk.lock").exists():
+            break
+        try:
+            slow.wait(0.1)
+            break
+        except subprocess.TimeoutExpired:
+            pass
+    refused = run(WINDOWS, ["batch", "box.obj", "-o", "other", "--resolution", "12"], folder)
+    note(refused.returncode == 6 and "another medial-vk batch is writing" in refused.stderr.decode(),
+         f"batch: the folder of another process is refused: {refused.returncode}, {refused.stderr.decode().strip()[-120:]}")
+    slow.wait(900)
+
+
+def check_interrupt():
+    """Ctrl-C ends with exit code 130, and leaves the previous file and nothing else."""
+    for name, words in {
+        "analysis": ["turtle.obj", "--resolution", "700", "-o", "out.ply"],
+        "reference": ["turtle.obj", "--resolution", "120", "--backend", "cpu", "-o", "out.ply"],
+        "spheres": ["spheres", "turtle.obj", "--count", "200", "-o", "out.csv"],
+        "batch": ["batch", "turtle.obj", "-o", "results", "--resolution", "700"],
+    }.items():
+        folder = WORK / "interrupt" / name
+        shutil.copytree(WORK / "inputs", folder)
+        out = folder / words[-1] if "-o" == words[-2] and name != "batch" else folder / "kept"
+        out.write_text("before")
+        outcome = subprocess.run(["wine", str(INTERRUPT), "1500", str(WINDOWS), *words], cwd=folder, capture_output=True,
+                                 timeout=300)
+        left = sorted(set(files_of(folder, INPUTS)) - {out.name})
+        if name == "batch":
+            left = [file for file in left if file not in ("results/.medial-vk.lock", "results/batch.csv")]
+        said = outcome.stderr.decode().strip()
+        note(outcome.returncode == 130 and out.read_text() == "before" and not left and "interrupted" in said,
+             f"Ctrl-C: {name}: exit code {outcome.returncode}, left {left}, {said[-120:]}")
+
+
+def check_doctor():
+    folder = WORK / "doctor"
+    folder.mkdir()
+    outcome = run(WINDOWS, ["doctor", "--report", "doctor.json"], folder)
+    text = outcome.stdout.decode()
+    note(outcome.returncode == 0 and "Result: the default device works" in text, f"doctor: exit code {outcome.returncode}\n{text}")
+    report = json.loads((folder / "doctor.json").read_text())
+    note("by Wine" in text and report["devices"], "doctor: names the system and a device")
+
+
+make_inputs(WORK / "inputs")
+INPUTS = {path.name for path in (WORK / "inputs").iterdir()}
+STEPS = (compare_all, compare_line_ends, check_absent, check_paths, check_batch_lock_and_resume, check_interrupt, check_doctor)
+for step in STEPS:
+    if not sys.argv[6:] or step.__name__ in sys.argv[6:]:
+        step()
+print(f"{compared} files compared, {len(failures)} failures; other last digits of functions: {declared}")
+sys.exit(1 if failures else 0)
