@@ -340,16 +340,16 @@ def check_batch_lock_and_resume():
 def check_interrupt():
     """Ctrl-C ends with exit code 130, and leaves the previous file and nothing else."""
     for name, words in {
-        "analysis": ["turtle.obj", "--resolution", "700", "-o", "out.ply"],
+        "analysis": ["turtle.obj", "--resolution", "400", "-o", "out.ply"],
         "reference": ["turtle.obj", "--resolution", "120", "--backend", "cpu", "-o", "out.ply"],
         "spheres": ["spheres", "turtle.obj", "--count", "200", "-o", "out.csv"],
-        "batch": ["batch", "turtle.obj", "-o", "results", "--resolution", "700"],
+        "batch": ["batch", "turtle.obj", "-o", "results", "--resolution", "400"],
     }.items():
         folder = WORK / "interrupt" / name
         shutil.copytree(WORK / "inputs", folder)
         out = folder / words[-1] if "-o" == words[-2] and name != "batch" else folder / "kept"
         out.write_text("before")
-        outcome = subprocess.run(["wine", str(INTERRUPT), "1500", str(WINDOWS), *words], cwd=folder, capture_output=True,
+        outcome = subprocess.run(["wine", str(INTERRUPT), "2000", str(WINDOWS), *words], cwd=folder, capture_output=True,
                                  timeout=300)
         left = sorted(set(files_of(folder, INPUTS)) - {out.name})
         if name == "batch":

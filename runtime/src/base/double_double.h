@@ -49,9 +49,10 @@ inline std::pair<double, double> two_product(double a, double b) {
 
 /// A sum of two doubles that do not overlap, with an error bound: each operation adds less than 8 units of 2^-106 of
 /// the sum of magnitudes (M. Joldes, J.-M. Muller, V. Popescu, "Tight and rigorous error bounds for basic building
-/// blocks of double-word arithmetic", 2017: 3 units, and 5, or 7 without fma), but nothing if one number is zero or both
-/// are single doubles: sums and products of numbers with few digits, as of balls on a grid, are exact. Precondition: no
-/// product is below 2^-900, where its last digits would underflow; callers multiply five multiples of 2^-170 at most.
+/// blocks of double-word arithmetic", 2017: 3 units, and 5, or 7 without fma), but nothing if one number is zero or
+/// both are single doubles: sums and products of numbers with few digits, as of balls on a grid, are exact.
+/// Precondition: no product is below 2^-900, where its last digits would underflow; callers multiply five multiples of
+/// 2^-170 at most.
 class DoubleDouble {
  public:
   DoubleDouble() = default;
