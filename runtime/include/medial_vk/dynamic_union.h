@@ -23,8 +23,8 @@ struct Exposure {
 /// for every other ball. Volumes are those of measure_ball_union(), under the same conditions for balls.
 class DynamicUnion {
  public:
-  /// For at most `capacity` balls at a time, none with a coordinate or a radius beyond `largest`. `threads`: of the host
-  /// in gains(), at most 16, 0: one per core; no result depends on it. Errors: kUsage (capacity of 2^30 and more;
+  /// For at most `capacity` balls at a time, none with a coordinate or a radius beyond `largest`. `threads`: of the
+  /// host in gains(), at most 16, 0: one per core; no result depends on it. Errors: kUsage (capacity of 2^30 and more;
   /// largest not positive and finite), kOutOfMemory.
   static Result<DynamicUnion> build(std::uint32_t capacity, double largest, unsigned threads = 1);
   DynamicUnion(DynamicUnion&&) noexcept;

@@ -223,7 +223,8 @@ class Merge {
     const std::string from = text_of(path_of(mesh.folder) / path_of(name)), to = folder_.path_of(name);
     const std::vector<std::string> sources = paths_of_results(from, row[BatchColumn::kFiles]);
     std::error_code error;
-    const auto missing = std::ranges::find_if(sources, [&](const auto& file) { return !fs::exists(path_of(file), error); });
+    const auto missing =
+        std::ranges::find_if(sources, [&](const auto& file) { return !fs::exists(path_of(file), error); });
     if (missing != sources.end()) fail(row, fmt::format("its result {} is missing", *missing));
     const std::vector<std::string> targets = paths_of_results(to, row[BatchColumn::kFiles]);
     for (const std::string& path : paths_of_results(to, earlier_files(name))) {
