@@ -321,8 +321,8 @@ HANDLE open_nothing() {
 /// A process that ends with this one, with these standard handles.
 class Child {
  public:
-  Child(std::wstring command_line, HANDLE input, HANDLE output, HANDLE errors) {
-    job_ = ::CreateJobObjectW(nullptr, nullptr);
+  Child(std::wstring command_line, HANDLE input, HANDLE output, HANDLE errors)
+      : job_(::CreateJobObjectW(nullptr, nullptr)) {
     JOBOBJECT_EXTENDED_LIMIT_INFORMATION limits = {};
     limits.BasicLimitInformation.LimitFlags =
         JOB_OBJECT_LIMIT_KILL_ON_JOB_CLOSE | JOB_OBJECT_LIMIT_DIE_ON_UNHANDLED_EXCEPTION;
