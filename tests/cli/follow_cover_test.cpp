@@ -164,7 +164,9 @@ TEST_F(FollowCovers, AreFittedToTheRestPose) {
   const ToolResult result = follow(
       {"box_0.obj", "box_1.obj", "--count", "4", "--backend", "cpu", "--resolution", "6", "-o", "a.npz", "--check"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("balls     4\n"));
+  // A cover may be better with fewer balls than are allowed.
+  EXPECT_THAT(result.err, testing::ContainsRegex("balls     [1-4]\n"));
+  EXPECT_THAT(result.err, HasSubstr("the balls cover the solid in every frame"));
 }
 
 TEST_F(FollowCovers, AFileThatDoesNotCoverIsRefused) {

@@ -30,6 +30,7 @@ NOT_RUN = {
     r"build/release/bin/test_": "is a program of tests that ctest runs, too",
     r"scripts/install-dependencies": "installs packages",
     r"scripts/build-deb": "builds packages for many minutes; package.debian runs it",
+    r"scripts/build-zip": "builds for Windows for many minutes; scripts/test-windows runs it",
     r"scripts/arm64-run ": "needs a build for another architecture; scripts/test-arm64 runs it",
     r"bench/|build/release/bin/bench_": "needs libraries, models or hours that the tests do not have",
     r"cmake ": "has configured and built this test; package.consumer installs",
