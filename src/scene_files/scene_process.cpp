@@ -23,7 +23,7 @@ std::string find_program() {
   const std::string folder = platform::folder_of_program();
   if (folder.empty()) return {};
   for (const char* below : {"", MEDIAL_VK_HELPERS_FROM_BIN}) {
-    const std::string path = platform::text_of(platform::path_of(folder) / below / kProgram);
+    std::string path = platform::text_of(platform::path_of(folder) / below / kProgram);
     if (platform::is_program(path)) return path;
   }
   return {};
