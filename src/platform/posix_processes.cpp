@@ -115,16 +115,16 @@ void unset_variable(const std::string& name) { ::unsetenv(name.c_str()); }
 ProgramOutcome run_program(const std::string& program, const std::vector<std::string>& arguments, std::string input) {
   Descriptor file(::memfd_create("medial-vk-scene", MFD_CLOEXEC));
   if (file.number() < 0 || !write_all(file.number(), input) || ::lseek(file.number(), 0, SEEK_SET) != 0) {
-    return {.code = errno, .step = "hand it to assimp"};
+    return {.code = errno, .has_input = false};
   }
   input = std::string();
   int ends[2] = {-1, -1};
-  if (::pipe2(ends, O_CLOEXEC) != 0) return {.code = errno, .step = "hand it to assimp"};
+  if (::pipe2(ends, O_CLOEXEC) != 0) return {.code = errno, .has_input = false};
   const Descriptor from_program(ends[0]);
   Descriptor to_us(ends[1]);
   pid_t process = 0;
   if (const int error = start(program, arguments, file.number(), to_us.number(), process); error != 0) {
-    return {.code = error, .step = "start the program that reads it"};
+    return {.code = error};
   }
   to_us.close();
   file.close();

@@ -50,7 +50,7 @@ ChildOutcome run_in_child(const std::function<std::string()>& work, std::chrono:
 
 struct ProgramOutcome {
   int code = 0;             ///< Not 0: the errno for which it was not started.
-  const char* step = "";    ///< Then: what failed, "start the program that reads it".
+  bool has_input = true;    ///< Then: false if already its input could not be put aside for it.
   std::string reason = {};  ///< Empty: it ended with exit code 0. Else "it crashed (Segmentation fault)" or the like.
   std::string output = {};
 };

@@ -674,12 +674,12 @@ ChildOutcome run_in_child(const std::function<std::string()>& work, std::chrono:
 ProgramOutcome run_program(const std::string& program, const std::vector<std::string>& arguments, std::string input) {
   const Handle file(file_with(input)), nothing(open_nothing());
   Pipe output;
-  if (!file.is_open() || !output.is_open()) return {.code = last_reason(), .step = "hand it to assimp"};
+  if (!file.is_open() || !output.is_open()) return {.code = last_reason(), .has_input = false};
   input = std::string();
   std::wstring command_line = quoted_word(program + ".exe");
   for (const std::string& argument : arguments) command_line += L" " + quoted_word(argument);
   const Child child(command_line, file.get(), output.writer(), nothing.get());
-  if (child.reason() != 0) return {.code = child.reason(), .step = "start the program that reads it"};
+  if (child.reason() != 0) return {.code = child.reason()};
   output.close_writer();
   ProgramOutcome outcome;
   outcome.output = read_to_end(output.reader());

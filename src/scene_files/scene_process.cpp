@@ -46,7 +46,10 @@ Result<std::vector<ScenePart>> read_scene_apart(SceneFile file) {
   }
   const platform::ProgramOutcome outcome =
       platform::run_program(program, {file.name, file.format, file.path}, std::move(file.bytes));
-  if (outcome.code != 0) return system_error(file.name, outcome.step, outcome.code);
+  if (outcome.code != 0) {
+    const char* const step = outcome.has_input ? "start the program that reads it" : "hand it to assimp";
+    return system_error(file.name, step, outcome.code);
+  }
   if (!outcome.reason.empty()) {
     return file_error(file.name, fmt::format("assimp failed on this .{} file: {}", file.format, outcome.reason));
   }
