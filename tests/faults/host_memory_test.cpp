@@ -1,4 +1,5 @@
 // Host memory that runs out: every allocation of the library fails once.
+// long: one fixture, and a test for each part of the library
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -283,6 +284,30 @@ TEST_F(HostMemory, RunsOutInADynamicUnion) {
     const std::string changed = bytes_of(balls);
     in_runtime([&] { balls.undo(); });
     return changed + bytes_of(balls);
+  });
+}
+
+/// shift() needs no memory, and settle() can be repeated.
+TEST_F(HostMemory, RunsOutInShiftsOfADynamicUnion) {
+  const std::vector<Ball> list = random_balls(30, 4, 0.1, 0.3), others = random_balls(6, 5, 0.1, 0.3);
+  fail_every_allocation("shifts in a dynamic union", [&]() -> Answer {
+    DynamicUnion balls = std::move(DynamicUnion::build(40, 2)).value();
+    for (const Ball& ball : list) EXPECT_TRUE(balls.add(ball).ok());
+    for (std::uint32_t slot = 0; slot < others.size(); ++slot) {
+      const Result<Exposure> there = in_runtime([&] { return balls.exposure_at(slot, others[slot]); });
+      EXPECT_TRUE(in_runtime([&] { return balls.shift(slot, others[slot]); }).ok());
+      if (there.ok()) continue;
+      EXPECT_TRUE(balls.settle().ok());
+      return there.error();
+    }
+    if (const Status status = in_runtime([&] { return balls.settle(); }); !status.ok()) {
+      EXPECT_TRUE(balls.settle().ok());
+      DynamicUnion moved = std::move(DynamicUnion::build(40, 2)).value();
+      for (std::uint32_t slot = 0; slot < list.size(); ++slot) EXPECT_TRUE(moved.add(balls.ball(slot)).ok());
+      EXPECT_NEAR(balls.volume(), moved.volume(), 1e-12);
+      return status.error();
+    }
+    return bytes_of(balls);
   });
 }
 

@@ -194,6 +194,67 @@ TEST(DynamicUnion, GainsOfSeveralBallsAreThoseOfEach) {
   }
 }
 
+/// Moves whose cells are computed in the end, between other changes: the union is that of its balls, and each exposure
+/// is that of a union in which the ball is there.
+TEST(DynamicUnion, ShiftsAreMovesOnceSettled) {
+  std::mt19937 random(11);
+  const auto coordinate = [&](bool on_a_grid) {
+    const double x = std::uniform_real_distribution<double>(0, 1)(random);
+    return on_a_grid ? std::round(4 * x) / 4 : x;
+  };
+  const auto any_ball = [&](bool on_a_grid) {
+    Ball ball = {{coordinate(on_a_grid), coordinate(on_a_grid), coordinate(on_a_grid)}, 0};
+    ball.radius = 0.125 + 0.25 * coordinate(on_a_grid);
+    return ball;
+  };
+  for (const bool on_a_grid : {false, true}) {
+    for (const unsigned threads : {1u, 3u}) {
+      SCOPED_TRACE(testing::Message() << "on a grid: " << on_a_grid << ", threads: " << threads);
+      DynamicUnion balls = std::move(DynamicUnion::build(40, 2, threads)).value();
+      for (int n = 0; n < 30; ++n) ASSERT_TRUE(balls.add(any_ball(on_a_grid)).ok());
+      for (int round = 0; round < 12; ++round) {
+        for (int n = 0; n < 6; ++n) {
+          const auto slot = static_cast<std::uint32_t>(random() % balls.slots());
+          const Ball to = random() % 4 == 0 ? balls.ball(slot) : any_ball(on_a_grid);
+          const Exposure there = balls.exposure_at(slot, to).value();
+          DynamicUnion moved = std::move(DynamicUnion::build(40, 2)).value();
+          for (std::uint32_t s = 0; s < balls.slots(); ++s) ASSERT_TRUE(moved.add(s == slot ? to : balls.ball(s)).ok());
+          EXPECT_NEAR(there.area, moved.exposure(slot).area, kTolerance);
+          for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(there.vector[k], moved.exposure(slot).vector[k], kTolerance);
+          if (random() % 3 == 0) continue;
+          ASSERT_TRUE(balls.shift(slot, to).ok());
+        }
+        ASSERT_TRUE(balls.settle().ok());
+        EXPECT_NEAR(balls.volume(), volume_at_once(balls), kTolerance);
+        const double settled = balls.volume();
+        balls.undo();
+        EXPECT_EQ(balls.volume(), settled);
+        ASSERT_TRUE(balls.move(static_cast<std::uint32_t>(round), any_ball(on_a_grid)).ok());
+        EXPECT_NEAR(balls.volume(), volume_at_once(balls), kTolerance);
+        balls.undo();
+        EXPECT_EQ(balls.volume(), settled);
+      }
+    }
+  }
+}
+
+TEST(DynamicUnion, ShiftsNameTheirSlotsAndWaitForSettle) {
+  DynamicUnion balls = std::move(DynamicUnion::build(4, 3)).value();
+  for (const double x : {0.0, 0.5, 2.5}) ASSERT_TRUE(balls.add({{x, 0, 0}, 0.5}).ok());
+  const double area = balls.exposure_at(2, balls.ball(2)).value().area;
+  EXPECT_EQ(balls.shift(3, {{0, 0, 0}, 1}).error().message, "no ball in slot 3");
+  EXPECT_EQ(balls.exposure_at(0, {{9, 0, 0}, 1}).error().code, ErrorCode::kUsage);
+  ASSERT_TRUE(balls.shift(0, {{0.1, 0, 0}, 0.5}).ok());
+  EXPECT_EQ(balls.gain({{0, 0, 0}, 1}).error().message, "after shift(), settle() comes first");
+  EXPECT_EQ(balls.move(1, {{0, 0, 0}, 1}).error().code, ErrorCode::kUsage);
+  ASSERT_TRUE(balls.shift(0, {{0.2, 0, 0}, 0.5}).ok());
+  ASSERT_TRUE(balls.settle().ok());
+  EXPECT_EQ(std::vector<std::uint32_t>(balls.changed().begin(), balls.changed().end()),
+            (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_EQ(balls.exposure(2).area, area);
+  EXPECT_TRUE(balls.settle().ok());
+}
+
 TEST(DynamicUnion, NamesWhatItCannotTake) {
   DynamicUnion balls = std::move(DynamicUnion::build(1, 1)).value();
   EXPECT_EQ(DynamicUnion::build(1, 0).error().code, ErrorCode::kUsage);

@@ -40,9 +40,20 @@ void KeptCells::start_change() {
   last_.clear();
 }
 
+void KeptCells::forget_changes() {
+  last_.clear();
+  before_.clear();
+}
+
 void KeptCells::put(std::uint32_t ball, const PowerCell& cell, const BallInCell& measured) {
   if (!store_.has_room_for(cell)) close_gaps(cell);
   replace(ball, {store_.keep(cell), measured, reach_of(cell.corners())});
+}
+
+void KeptCells::put_for_good(std::uint32_t ball, const PowerCell& cell, const BallInCell& measured) {
+  last_.balls.push_back(ball);
+  if (!store_.has_room_for(cell)) close_gaps(cell);
+  kept_[ball] = {store_.keep(cell), measured, reach_of(cell.corners())};
 }
 
 void KeptCells::replace(std::uint32_t ball, const Kept& by) {

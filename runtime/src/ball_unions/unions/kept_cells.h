@@ -42,8 +42,12 @@ class KeptCells {
   void restore(std::uint32_t ball, PowerCell& cell) const { store_.restore(kept_[ball].cell, cell); }
 
   void start_change();
+  /// Nothing can be taken back any more.
+  void forget_changes();
   /// Once for each ball in a change. If they throw std::bad_alloc, the cell is as before.
   void put(std::uint32_t ball, const PowerCell& cell, const BallInCell& measured);
+  /// As put(), at any time after forget_changes(), but without a way back.
+  void put_for_good(std::uint32_t ball, const PowerCell& cell, const BallInCell& measured);
   void put_none(std::uint32_t ball) { replace(ball, {}); }
   /// The balls whose cells the last change has altered.
   std::span<const std::uint32_t> changed() const { return last_.balls; }
