@@ -54,6 +54,20 @@ void expect_in_cube(double radius, double solid_to_balls, double balls_to_solid,
   expect_bounds(d.envelope_to_boundary, envelope_to_boundary, tolerance);
 }
 
+/// The point of a cube that is farthest from balls in its corners is its middle, the only one that no direction leads
+/// away from: no face has a point as far.
+TEST(EnvelopeDistance, FarthestPointInside) {
+  const Case cube(make_box({2, 2, 2}));
+  std::vector<Ball> balls;
+  for (int k = 0; k < 8; ++k) balls.push_back({{k & 1 ? 1.7 : 0.3, k & 2 ? 1.7 : 0.3, k & 4 ? 1.7 : 0.3}, 0.3});
+  EnvelopeOptions options;
+  options.tolerance = 1e-4;
+  const double tolerance = 1.01e-4 * cube.solid->diagonal();
+  const EnvelopeDistances d = measure_distances(*cube.solid, envelope_of(balls), options).value();
+  expect_bounds(d.solid_to_balls, 0.7 * std::sqrt(3.0) - 0.3, tolerance);
+  expect_bounds(d.boundary_to_balls, std::sqrt(0.3 * 0.3 + 2 * 0.7 * 0.7) - 0.3, tolerance);
+}
+
 TEST(EnvelopeDistance, BallInACube) {
   const double corner = std::sqrt(3.0);
   expect_in_cube(1, corner - 1, 0, corner - 1, 1 - 1 / corner);

@@ -30,6 +30,9 @@ void split_part(const Part& part, std::vector<Part>& parts) {
 struct Cube {
   Point centre;
   double half;  ///< Of its side.
+  // Of the cube that this is a part of: its nearest ball, and the point of the boundary nearest to its centre.
+  mutable std::uint32_t ball = 0;
+  mutable Point at_boundary = {HUGE_VAL, 0, 0};
 
   double reach() const { return half * 1.7320508075688775; }
   /// The greatest distance of its points from p.
@@ -44,7 +47,10 @@ void split_cube(const Cube& cube, std::vector<Cube>& parts) {
   const double h = cube.half / 2;
   for (int k = 0; k < 8; ++k) {
     parts.push_back(
-        {{cube.centre[0] + (k & 1 ? h : -h), cube.centre[1] + (k & 2 ? h : -h), cube.centre[2] + (k & 4 ? h : -h)}, h});
+        {{cube.centre[0] + (k & 1 ? h : -h), cube.centre[1] + (k & 2 ? h : -h), cube.centre[2] + (k & 4 ? h : -h)},
+         h,
+         cube.ball,
+         cube.at_boundary});
   }
 }
 
@@ -72,6 +78,8 @@ Point on_sphere(const Ball& ball, const Point& p) {
   return ball.centre + (ball.radius / distance) * to;
 }
 
+Bounds greater(const Bounds& a, const Bounds& b) { return {std::max(a.lower, b.lower), std::max(a.upper, b.upper)}; }
+
 class Measure {
  public:
   Measure(const Solid& solid, const Envelope& envelope, const EnvelopeOptions& options)
@@ -94,7 +102,7 @@ class Measure {
     EnvelopeDistances d;
     if (!options_.known_cover) {
       d.boundary_to_balls = boundary_to_balls();
-      d.solid_to_balls = solid_to_balls(d.boundary_to_balls.lower);
+      d.solid_to_balls = solid_to_balls(d.boundary_to_balls);
     }
     if (!options_.known_inside) d.balls_to_solid = balls_to_solid();
     // No point of the boundary lies in the interior of balls that are inside.
@@ -124,21 +132,41 @@ class Measure {
     return std::min(nearest.distance + part.reach(middle), part.reach(ball.centre) - ball.radius);
   }
 
-  Bounds solid_to_balls(double lower) const {
+  /// If the mesh is closed, the farthest point is on its boundary or critical.
+  Bounds solid_to_balls(const Bounds& at_boundary) const {
     const MeshReport& report = solid_.mesh().report;
     const auto evaluate = [&](const Cube& cube, double known) -> CellBounds {
       const double reach = cube.reach();
-      const double distance = tree_.nearest(cube.centre).distance;
-      if (distance + reach <= known + limits_.tolerance) return {kNone, distance + reach};
+      const NearestBall nearest = tree_.nearest(cube.centre);
+      const double distance = nearest.distance;
+      // |p - c| - r is convex.
+      const Ball& ball = tree_.balls()[nearest.ball];
+      const double bound = std::min(distance + reach, cube.farthest(ball.centre) - ball.radius);
+      if (bound <= known + limits_.tolerance) return {kNone, bound};
+      if (report.closed && has_no_farthest_point(cube, nearest)) return {};
       SolidSide side = SolidSide::kUnknown;
       if (!solid_.bvh().any_within(cube.centre, reach + slack_)) side = solid_.side_around(cube.centre, reach + slack_);
       if (side == SolidSide::kOutside) return {};
       const bool is_inside = side == SolidSide::kInside || solid_.contains(cube.centre);
-      return {is_inside ? distance : kNone, distance + reach};
+      return {is_inside ? distance : kNone, bound};
     };
-    return rounded(bound_supremum(std::vector<Cube>{cube_around(report.lower, report.upper)}, lower, limits_, evaluate,
-                                  split_cube),
-                   slack_);
+    const Bounds found = rounded(bound_supremum(std::vector<Cube>{cube_around(report.lower, report.upper)},
+                                                at_boundary.lower, limits_, evaluate, split_cube),
+                                 slack_);
+    return report.closed ? greater(found, at_boundary) : found;
+  }
+
+  /// True only if the distance to the balls has no local maximum in the cube: it increases everywhere in it along one
+  /// direction, as do the distances to all balls that may be the nearest one somewhere in it.
+  bool has_no_farthest_point(const Cube& cube, const NearestBall& nearest) const {
+    const double reach = cube.reach() + slack_;
+    const Point along = cube.centre - tree_.balls()[nearest.ball].centre;
+    const double size = length(along);
+    if (!(size > 0)) return false;
+    const Point direction = (1 / size) * along;
+    return !tree_.any_within(cube.centre, nearest.distance + 2 * reach, [&](std::uint32_t i, double) {
+      return !(dot(direction, cube.centre - tree_.balls()[i].centre) > reach);
+    });
   }
 
   /// Only of points in balls not proved to be inside by themselves; points of the others are at distance 0.
@@ -205,11 +233,18 @@ class Measure {
     const double lower = greatest_at_vertices([&](const Point& p) { return solid_.distance(p); });
     const auto evaluate = [&](const Cube& cube, double known) -> CellBounds {
       const double reach = cube.reach();
+      if (const double bound = cube.farthest(cube.at_boundary); bound <= known + limits_.tolerance)
+        return {kNone, bound};
+      const Ball& likely = tree_.balls()[cube.ball];
+      if (length(cube.centre - likely.centre) - likely.radius < -(reach + slack_)) return {};
       const NearestBall nearest = tree_.nearest(cube.centre);
+      cube.ball = nearest.ball;
       if (std::fabs(nearest.distance) > reach + slack_) return {};
-      const BvhHit hit = solid_.closest(cube.centre);
-      const double distance = std::sqrt(hit.squared_distance);
-      CellBounds cell = {kNone, cube.farthest(hit.point)};
+      const double before = length(cube.centre - cube.at_boundary);
+      const BvhHit hit = solid_.bvh().closest(cube.centre, before);
+      if (hit.triangle != BvhHit().triangle) cube.at_boundary = hit.point;
+      const double distance = std::min(before, std::sqrt(hit.squared_distance));
+      CellBounds cell = {kNone, cube.farthest(cube.at_boundary)};
       if (distance + std::fabs(nearest.distance) <= known) return cell;
       const Ball& ball = tree_.balls()[nearest.ball];
       if (nearest.distance == -ball.radius) return cell;  // Its centre: no direction.
@@ -229,8 +264,6 @@ class Measure {
   SearchLimits limits_;
   std::vector<Part> parts_;
 };
-
-Bounds greater(const Bounds& a, const Bounds& b) { return {std::max(a.lower, b.lower), std::max(a.upper, b.upper)}; }
 
 }  // namespace
 

@@ -11,8 +11,6 @@ namespace medial_vk {
 namespace {
 
 constexpr std::uint32_t kLeafSize = 4;
-// Ranges are halved: 2^31 balls are 31 levels.
-constexpr std::size_t kStack = 64;
 
 }  // namespace
 
@@ -90,30 +88,6 @@ NearestBall NearestBallTree::nearest(const Point& p) const {
     }
   }
   return best;
-}
-
-template <class Visit>
-bool NearestBallTree::any_within(const Point& p, double limit, const Visit& visit) const {
-  if (nodes_.empty()) return false;
-  std::array<std::uint32_t, kStack> stack;
-  std::size_t size = 0;
-  stack[size++] = 0;
-  while (size > 0) {
-    const std::uint32_t at = stack[--size];
-    const Node& node = nodes_[at];
-    if (distance_to_box(node, p) - node.greatest_radius > limit) continue;
-    if (node.right != 0) {
-      stack[size++] = node.right;
-      stack[size++] = at + 1;
-      continue;
-    }
-    for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
-      const Ball& ball = balls_[order_[k]];
-      const double distance = length(p - ball.centre) - ball.radius;
-      if (distance <= limit && visit(order_[k], distance)) return true;
-    }
-  }
-  return false;
 }
 
 bool NearestBallTree::holds(const Point& p, double depth) const {

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
 
+#include "base/point_ops.h"
 #include "medial_vk/ball.h"
 
 namespace medial_vk {
@@ -40,16 +42,19 @@ class NearestBallTree {
   /// Indices of the balls with |p - c| - r <= limit, in arbitrary order, replace `found`.
   void gather(const Point& p, double limit, std::vector<std::uint32_t>& found) const;
 
+  /// Calls visit(ball, |p - c| - r) where the latter is at most `limit`, until a call returns true; returns whether one
+  /// did.
+  template <class Visit>
+  bool any_within(const Point& p, double limit, const Visit& visit) const;
+
   const std::vector<Ball>& balls() const { return balls_; }  ///< In input order.
   const std::vector<Node>& nodes() const { return nodes_; }  ///< Root first.
   const std::vector<std::uint32_t>& order() const { return order_; }
 
  private:
+  // Ranges are halved: 2^31 balls are 31 levels.
+  static constexpr std::size_t kStack = 64;
   std::uint32_t build(std::uint32_t first, std::uint32_t count);
-  /// Calls visit(ball, |p - c| - r) where the latter is at most `limit`, until a call returns true; returns whether one
-  /// did.
-  template <class Visit>
-  bool any_within(const Point& p, double limit, const Visit& visit) const;
 
   std::vector<Ball> balls_;
   std::vector<std::uint32_t> order_;
@@ -73,6 +78,30 @@ inline double farthest_in_box(const NearestBallTree::Node& node, const Point& p)
     sum += out * out;
   }
   return std::sqrt(sum);
+}
+
+template <class Visit>
+bool NearestBallTree::any_within(const Point& p, double limit, const Visit& visit) const {
+  if (nodes_.empty()) return false;
+  std::array<std::uint32_t, kStack> stack;
+  std::size_t size = 0;
+  stack[size++] = 0;
+  while (size > 0) {
+    const std::uint32_t at = stack[--size];
+    const Node& node = nodes_[at];
+    if (distance_to_box(node, p) - node.greatest_radius > limit) continue;
+    if (node.right != 0) {
+      stack[size++] = node.right;
+      stack[size++] = at + 1;
+      continue;
+    }
+    for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
+      const Ball& ball = balls_[order_[k]];
+      const double distance = length(p - ball.centre) - ball.radius;
+      if (distance <= limit && visit(order_[k], distance)) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace medial_vk
