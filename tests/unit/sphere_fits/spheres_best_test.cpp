@@ -66,6 +66,30 @@ TEST(MaximalBall, HoldsTheBallAroundItsPointAndStaysInside) {
   }
 }
 
+TEST(MaximalBall, IsTheSameWhicheverTrianglesAreTriedFirst) {
+  const Shape shape(turned_l_shape());
+  std::vector<std::uint32_t> all(shape.solid.mesh().mesh.triangles.size());
+  std::iota(all.begin(), all.end(), 0u);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::vector<std::uint32_t> of_last;
+  for (int inside = 0; inside < 300;) {
+    const double x = uniform(random), y = uniform(random), z = uniform(random);
+    const Point p = {1.5 * x, 1.5 * y, 1.5 * z};
+    if (!shape.solid.contains(p)) continue;
+    ++inside;
+    const Ball ball = maximal_ball(shape.solid, p);
+    std::vector<std::uint32_t> some = all;
+    const Ball from_all = maximal_ball(shape.solid, p, some);
+    const Ball from_last = maximal_ball(shape.solid, p, of_last);
+    // Each may stop short of the second contact by four roundings, which its direction from the first one magnifies.
+    const double tolerance = 16 * shape.solid.rounding() * (1 + ball.radius / shape.solid.distance(p));
+    EXPECT_NEAR(from_all.radius, ball.radius, tolerance);
+    EXPECT_NEAR(from_last.radius, ball.radius, tolerance);
+    if (of_last.size() > 40) of_last.clear();
+  }
+}
+
 TEST(BestMethod, BallsOnlyAreProvedButNotMeasured) {
   const IndexedMesh mesh = test::indexed(prepare_mesh(turned_l_shape()).value());
   SphereFitOptions options;
@@ -216,6 +240,42 @@ TEST(Candidates, EndWhenNoneAddsAnything) {
   candidates.add(std::vector<Ball>{{{0, 0, 0}, 1}, {{0.1, 0, 0}, 0.5}});
   ASSERT_TRUE(balls.add(candidates.take_best(balls).value()->ball).ok());
   EXPECT_FALSE(candidates.take_best(balls).value().has_value());
+}
+
+/// A lattice selects a few of them; where it has no point in any, all are measured.
+TEST(Candidates, ThatALatticeSelectsHaveExactGains) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<Ball> all;
+  for (int n = 0; n < 200; ++n) {
+    const double x = uniform(random), y = uniform(random), z = uniform(random);
+    all.push_back({{x, y, z}, 0.1 + 0.1 * uniform(random)});
+  }
+  for (const bool beside : {false, true}) {
+    SCOPED_TRACE(beside ? "the lattice is elsewhere" : "a lattice among the balls");
+    DynamicUnion balls = std::move(DynamicUnion::build(40, 2)).value();
+    Candidates candidates;
+    candidates.add(all);
+    const double from = beside ? 5 : 0;
+    Coverage coverage({from, from, from}, {from + 1, from + 1, from + 1});
+    coverage.divide(1e5, {});
+    const auto cell = coverage.cell();
+    for (int n = 0; n < 40; ++n) {
+      double best = 0;
+      for (const Ball& ball : all) best = std::max(best, balls.gain(ball).value());
+      candidates.find_promising(coverage);
+      const auto choice = candidates.take_best(balls).value();
+      ASSERT_TRUE(choice.has_value());
+      EXPECT_EQ(choice->gain, balls.gain(choice->ball).value());
+      if (beside) {
+        EXPECT_EQ(choice->gain, best);
+      }
+      // The best one has a volume of some hundred points, the error of which is that of the points next to the sphere.
+      EXPECT_GE(choice->gain + 4 * std::numbers::pi * 0.2 * 0.2 * std::sqrt(3.0) * std::cbrt(cell), best);
+      ASSERT_TRUE(balls.add(choice->ball).ok());
+      coverage.add(choice->ball);
+    }
+  }
 }
 
 TEST(GapFinder, FindsTheCornersOfABoxAndTheVertices) {

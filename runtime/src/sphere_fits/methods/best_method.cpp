@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -16,8 +17,10 @@
 #include "sphere_fits/quality/measures.h"
 #include "sphere_fits/steps/ball_steps.h"
 #include "sphere_fits/steps/candidates.h"
+#include "sphere_fits/steps/gap_balls.h"
 #include "sphere_fits/steps/gaps.h"
 #include "sphere_fits/steps/maximal_ball.h"
+#include "threads/worker_pool.h"
 
 namespace medial_vk {
 namespace {
@@ -36,12 +39,15 @@ constexpr std::size_t kFirstGap = 16;   // earlier balls form the rough shape
 constexpr double kAsGood = 0.4;         // share of the best gain from which a ball placed by distance is preferred
 constexpr double kGapTolerance = 0.01;  // of the bounds of the greatest gap, as a share of the goal
 
-constexpr double kFirstDepth = 1e-3;  // below the boundary, of the diagonal: where balls from the boundary start
-
 /// Step lengths of sliding, in radii of the ball.
 constexpr double kFirstStep = 0.2, kLeastFirstStep = 0.05;
-constexpr int kOwnSlides = 3, kSweeps = 6;
-constexpr double kEnough = 2e-3;  // share of the gain of the new ball: a sweep that gains less is the last
+constexpr int kOwnSlides = 3, kSweeps = 12;
+constexpr double kEnough = 5e-4;  // share of the gain of the new ball: a sweep that gains less is the last
+
+// Of the lattice by which candidates are selected: points in the union, for each ball and at least. The more balls, the
+// smaller the share of a ball's volume that no other holds.
+constexpr double kPointsOfBall = 2048, kPointsOfOneOfMany = 8192, kLeastPoints = 1 << 15;
+constexpr std::size_t kMany = 512;
 
 class Placing {
  public:
@@ -52,6 +58,8 @@ class Placing {
         extractor_(extractor),
         progress_(progress),
         balls_(std::move(balls)),
+        coverage_(solid.mesh().report.lower, solid.mesh().report.upper),
+        pool_(options.threads),
         moves_(options.contract == SphereContract::kBalanced ? balancing_steps(solid) : sliding_steps(solid)),
         gaps_(solid, balls_, options.contract == SphereContract::kBalanced),
         estimated_error_(options.error),
@@ -70,6 +78,7 @@ class Placing {
       if (!choice.value()) break;
       if (Status status = place(*choice.value()); !status.ok()) return status.error();
       volumes_.push_back(balls_.volume());
+      if (std::has_single_bit(balls_.size())) divide_coverage();
       if (is_stage(balls_.size(), most)) stages_[balls_.size()] = all_balls();
       if (!progress_) continue;
       shown_ = share_done(most);
@@ -182,12 +191,26 @@ class Placing {
     return {};
   }
 
+  /// The lattice becomes finer as gains become smaller.
+  void divide_coverage() {
+    const double of_ball = balls_.size() < kMany ? kPointsOfBall : kPointsOfOneOfMany;
+    const double points = std::max(kLeastPoints, of_ball * static_cast<double>(balls_.size()));
+    coverage_.divide(points / balls_.volume(), all_balls());
+  }
+
   /// Where many balls are equally good, as in a plate that is wide for its thickness, distance decides.
   Result<std::optional<Candidates::Choice>> choose() {
+    std::optional<Ball> ball;
+    if (balls_.size() > 0) {
+      // Neither task changes anything that the other reads.
+      pool_.run(2, 1, [&](std::size_t task) {
+        if (task == 0) candidates_.find_promising(coverage_);
+        if (task == 1) ball = ball_in_widest_gap(solid_, gaps_);
+      });
+    }
     Result<std::optional<Candidates::Choice>> best = candidates_.take_best(balls_);
     if (best && !best.value() && balls_.size() == 0) return first_from_boundary();
     if (!best || balls_.size() == 0) return best;
-    const std::optional<Ball> ball = ball_in_widest_gap();
     if (!ball) return best;
     const Result<double> gain = balls_.gain(*ball);
     if (!gain) return gain.error();
@@ -199,44 +222,13 @@ class Placing {
     return std::optional<Candidates::Choice>({*ball, gain.value()});
   }
 
-  /// The largest ball through the deepest vertex of the envelope, or near the boundary's farthest point.
-  std::optional<Ball> ball_in_widest_gap() {
-    const GapFinder::Gap outer = gaps_.widest_on_boundary(), inner = gaps_.deepest_vertex();
-    const std::optional<Point> inside = outer.size > inner.size ? point_inside(outer) : inner.at;
-    if (!inside || !solid_.contains(*inside)) return std::nullopt;
-    const Ball ball = maximal_ball(solid_, *inside);
-    return ball.radius > 0 && stays_inside(solid_, ball) ? std::optional(ball) : std::nullopt;
-  }
-
-  /// If there are no medial points (that of a ball is its centre, and easily missed): the largest of the balls that
-  /// touch the boundary at its samples.
+  /// If there are no medial points: that of a ball is its centre, and easily missed.
   Result<std::optional<Candidates::Choice>> first_from_boundary() {
-    Ball largest = {{0, 0, 0}, 0};
-    for (const GapFinder::Sample& sample : gaps_.samples()) {
-      const std::optional<Point> inside = point_along(sample.at, sample.inward, kFirstDepth * solid_.diagonal());
-      if (!inside) continue;
-      const Ball ball = maximal_ball(solid_, *inside);
-      if (ball.radius > largest.radius && stays_inside(solid_, ball)) largest = ball;
-    }
-    if (largest.radius <= 0) return std::optional<Candidates::Choice>();
-    const Result<double> gain = balls_.gain(largest);
+    const std::optional<Ball> ball = largest_at_samples(solid_, gaps_);
+    if (!ball) return std::optional<Candidates::Choice>();
+    const Result<double> gain = balls_.gain(*ball);
     if (!gain) return gain.error();
-    return std::optional<Candidates::Choice>({largest, gain.value()});
-  }
-
-  /// The point half way to the balls, or, if that is outside, the point at that distance along the normal.
-  std::optional<Point> point_inside(const GapFinder::Gap& gap) const {
-    if (solid_.contains(gap.towards_balls)) return gap.towards_balls;
-    return point_along(gap.at, gap.inward, 0.5 * gap.size);
-  }
-
-  /// A point inside along the normal: at the depth, or half, or a quarter of it ...
-  std::optional<Point> point_along(const Point& at, const Point& inward, double depth) const {
-    for (int tries = 0; tries < 16; ++tries, depth /= 2) {
-      const Point inside = at + depth * inward;
-      if (solid_.contains(inside)) return inside;
-    }
-    return std::nullopt;
+    return std::optional<Candidates::Choice>({*ball, gain.value()});
   }
 
   Status place(const Candidates::Choice& choice) {
@@ -247,45 +239,70 @@ class Placing {
     const Result<std::uint32_t> slot = balls_.add(ball);
     if (!slot) return slot.error();
     moves_->came(balls_, slot.value());
+    if (coverage_.cell() > 0) coverage_.add(ball);
     const std::vector<std::uint32_t> around(balls_.changed().begin(), balls_.changed().end());
     note_change();
+    const State before = {balls_in(around), balls_.volume()};
     steps_.resize(balls_.slots());
     steps_[slot.value()] = kFirstStep * ball.radius;
+    if (Status status = slide(slot.value(), around, choice.gain); !status.ok()) return status;
+    if (Status status = end_slides(around, before); !status.ok()) return status;
+    // The uncovered volume between a ball and its neighbours lies around their common points.
+    candidates_.add(balls_at_vertices(solid_, gaps_, around, pool_));
+    return {};
+  }
+
+  /// The new ball first, then all whose cells it has altered.
+  Status slide(std::uint32_t slot, std::span<const std::uint32_t> around, double gain_of_ball) {
     for (int i = 0; i < kOwnSlides; ++i) {
-      if (Result<double> gain = move(slot.value()); !gain) return gain.error();
+      if (const Result<double> gain = move(slot); !gain.ok()) return gain.error();
     }
     for (const std::uint32_t p : around) steps_[p] = std::max(steps_[p], kLeastFirstStep * balls_.ball(p).radius);
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
       double sum = 0;
       for (const std::uint32_t p : around) {
-        Result<double> gain = move(p);
-        if (!gain) return gain.error();
+        const Result<double> gain = move(p);
+        if (!gain.ok()) return gain.error();
         sum += gain.value();
       }
-      if (sum <= kEnough * choice.gain) break;
+      if (sum <= kEnough * gain_of_ball) break;
     }
-    add_candidates_at_vertices(around);
     return {};
   }
 
-  /// The uncovered volume between a ball and its neighbours lies around their common points.
-  void add_candidates_at_vertices(std::span<const std::uint32_t> around) {
-    std::vector<Ball> balls;
-    for (const std::uint32_t slot : around) {
-      const std::optional<Point> vertex = gaps_.deepest_vertex(slot);
-      if (!vertex || !solid_.contains(*vertex)) continue;
-      const Ball ball = maximal_ball(solid_, *vertex);
-      if (ball.radius > 0 && stays_inside(solid_, ball)) balls.push_back(ball);
+  /// Before balls slide.
+  struct State {
+    std::vector<Ball> balls;  // of the slots in question
+    double volume;            // of the union
+  };
+
+  /// The gains of slides are estimates: if the union has become smaller, none of them is made.
+  Status end_slides(std::span<const std::uint32_t> around, const State& before) {
+    if (Status status = settle(); !status.ok()) return status;
+    if (options_.contract != SphereContract::kBalanced && balls_.volume() < before.volume) {
+      for (std::size_t k = 0; k < around.size(); ++k) {
+        if (Status status = balls_.shift(around[k], before.balls[k]); !status.ok()) return status;
+      }
+      return settle();
     }
-    candidates_.add(balls);
+    if (coverage_.cell() == 0) return {};
+    for (std::size_t k = 0; k < around.size(); ++k) {
+      const Ball &from = before.balls[k], &to = balls_.ball(around[k]);
+      if (from.centre == to.centre && from.radius == to.radius) continue;
+      coverage_.remove(from);
+      coverage_.add(to);
+    }
+    return {};
+  }
+
+  Status settle() {
+    if (Status status = balls_.settle(); !status.ok()) return status;
+    note_change();
+    return {};
   }
 
   /// One step of one ball; returns the gain.
-  Result<double> move(std::uint32_t slot) {
-    Result<double> gain = moves_->take(balls_, slot, steps_[slot]);
-    if (gain && gain.value() > 0) note_change();
-    return gain;
-  }
+  Result<double> move(std::uint32_t slot) { return moves_->take(balls_, slot, steps_[slot]); }
 
   void note_change() {
     for (const std::uint32_t slot : balls_.changed()) gaps_.forget(slot);
@@ -295,6 +312,12 @@ class Placing {
     std::vector<Ball> all;
     for (std::uint32_t slot = 0; slot < balls_.slots(); ++slot) all.push_back(balls_.ball(slot));
     return all;
+  }
+  std::vector<Ball> balls_in(std::span<const std::uint32_t> slots) const {
+    std::vector<Ball> balls;
+    balls.reserve(slots.size());
+    for (const std::uint32_t slot : slots) balls.push_back(balls_.ball(slot));
+    return balls;
   }
 
   Result<SphereSet> result() const {
@@ -310,6 +333,8 @@ class Placing {
   const SphereProgress& progress_;
   DynamicUnion balls_;
   Candidates candidates_;
+  Coverage coverage_;  // by the balls of the union
+  WorkerPool pool_;
   std::unique_ptr<BallSteps> moves_;
   GapFinder gaps_;
   std::size_t levels_ = 0;

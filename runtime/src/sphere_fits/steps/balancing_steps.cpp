@@ -81,7 +81,7 @@ class BalancingSteps : public BallSteps {
     for (const auto& [apart, other] : found) others_.push_back(other);
   }
 
-  std::optional<Ball> propose(const DynamicUnion& balls, std::uint32_t slot, double step) override {
+  Result<std::optional<Ball>> propose(DynamicUnion& balls, std::uint32_t slot, double step) override {
     const Ball& ball = balls.ball(slot);
     find_others(balls, slot, 3 * step);
     heights_.clear();
@@ -91,20 +91,20 @@ class BalancingSteps : public BallSteps {
       if (is_in_other(at)) continue;
       heights_.push_back({normal, height_at(at, normal)});
     }
-    if (heights_.empty()) return std::nullopt;
+    if (heights_.empty()) return std::optional<Ball>();
     const Change change = least_absolute(heights_, step);
     const double size = length(change.move) + std::fabs(change.growth);
-    if (!(size > 1e-6 * step)) return std::nullopt;
+    if (!(size > 1e-6 * step)) return std::optional<Ball>();
     const double factor = std::min(1.0, step / size);
     const Ball moved = {ball.centre + factor * change.move, ball.radius + factor * change.growth};
-    return moved.radius > 0 ? std::optional(moved) : std::nullopt;
+    return moved.radius > 0 ? std::optional(moved) : std::optional<Ball>();
   }
 
   /// Among the others that propose() has found: no step is longer than its limit there.
   Result<double> try_move(DynamicUnion& balls, std::uint32_t slot, const Ball& to) override {
     const double gain = difference_.change(balls.ball(slot), others_) - difference_.change(to, others_);
     if (!(gain > 0)) return 0.0;
-    if (Status status = balls.move(slot, to); !status.ok()) return status.error();
+    if (Status status = balls.shift(slot, to); !status.ok()) return status.error();
     gained_ += gain;
     return gain;
   }

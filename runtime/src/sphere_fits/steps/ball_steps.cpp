@@ -8,7 +8,9 @@ Result<double> BallSteps::take(DynamicUnion& balls, std::uint32_t slot, double& 
   // In radii: a ball whose step is shorter has converged.
   constexpr double kLongestStep = 0.5, kShortestStep = 1e-3;
   if (step < kShortestStep * balls.ball(slot).radius) return 0.0;
-  const std::optional<Ball> to = propose(balls, slot, step);
+  const Result<std::optional<Ball>> proposed = propose(balls, slot, step);
+  if (!proposed.ok()) return proposed.error();
+  const std::optional<Ball>& to = proposed.value();
   if (!to) {
     step /= 4;
     return 0.0;

@@ -13,8 +13,9 @@ namespace medial_vk {
 class BallSteps {
  public:
   virtual ~BallSteps() = default;
-  /// Moves the ball in slot `slot` about as far as `step`, if that gains anything, and returns the gain (mesh units
-  /// cubed); 0: the ball is unchanged. `step` becomes the next length to try. Errors: those of DynamicUnion::move().
+  /// Shifts the ball in slot `slot` about as far as `step`, if that gains anything, and returns an estimate of the gain
+  /// (mesh units cubed); 0: the ball is unchanged. DynamicUnion::settle() ends a sequence of them. `step` becomes the
+  /// next length to try. Errors: those of DynamicUnion::exposure_at().
   Result<double> take(DynamicUnion& balls, std::uint32_t slot, double& step);
   /// To be called for each added ball.
   virtual void came(const DynamicUnion& balls, std::uint32_t slot) = 0;
@@ -23,7 +24,7 @@ class BallSteps {
 
  private:
   /// The replacement of the ball; no value if no direction is better.
-  virtual std::optional<Ball> propose(const DynamicUnion& balls, std::uint32_t slot, double step) = 0;
+  virtual Result<std::optional<Ball>> propose(DynamicUnion& balls, std::uint32_t slot, double step) = 0;
   /// The gain of this replacement; 0: there is none, and nothing has changed.
   virtual Result<double> try_move(DynamicUnion& balls, std::uint32_t slot, const Ball& to) = 0;
 };

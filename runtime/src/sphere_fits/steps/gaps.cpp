@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <new>
-#include <queue>
 #include <utility>
 
 #include "base/point_ops.h"
@@ -86,23 +86,33 @@ double GapFinder::refresh(Sample& sample) const {
   return least;
 }
 
-/// The ball that was nearest bounds each gap, so only a few gaps must be remeasured.
+/// The ball that was nearest bounds each gap, so only a few gaps must be remeasured: where this bound exceeds the gap
+/// at the sample that had the widest one the last time.
 GapFinder::Gap GapFinder::widest_on_boundary() {
-  std::vector<std::pair<double, std::uint32_t>> bounds;
+  const double least = refresh(samples_[widest_]);
+  bounds_.clear();
   for (std::uint32_t k = 0; k < samples_.size(); ++k) {
-    bounds.emplace_back(distance_to(samples_[k].at, samples_[k].slot), k);
+    const double bound = distance_to(samples_[k].at, samples_[k].slot);
+    if (bound > least || k == widest_) bounds_.emplace_back(bound, k);
   }
-  std::priority_queue queue(std::less<>(), std::move(bounds));
+  std::ranges::sort(bounds_, std::greater<>());
   Gap widest;
-  while (!queue.empty() && queue.top().first > widest.size) {
-    Sample& sample = samples_[queue.top().second];
-    queue.pop();
+  for (const auto& [bound, k] : bounds_) {
+    if (!(bound > widest.size)) break;
+    Sample& sample = samples_[k];
     const double size = refresh(sample);
     if (!(size > widest.size)) continue;
     const Point towards = balls_.ball(sample.slot).centre - sample.at;
     widest = {sample.at, size, sample.at + (0.5 * size / length(towards)) * towards, sample.inward};
+    widest_ = k;
   }
   return widest;
+}
+
+void GapFinder::find_deepest(std::span<const std::uint32_t> slots, WorkerPool& pool) {
+  known_.resize(balls_.slots(), 0);
+  deepest_.resize(balls_.slots());
+  pool.run(slots.size(), 1, [&](std::size_t k) { deepest_at(slots[k]); });
 }
 
 const GapFinder::Gap& GapFinder::deepest_at(std::uint32_t slot) {
@@ -114,6 +124,7 @@ const GapFinder::Gap& GapFinder::deepest_at(std::uint32_t slot) {
   const Result<std::vector<Point>> vertices = balls_.vertices(slot);
   if (!vertices) throw std::bad_alloc();  // its only error for an occupied slot
   for (const Point& vertex : vertices.value()) {
+    if (deepest.size > 0 && solid_.bvh().any_within(vertex, deepest.size)) continue;
     const double depth = solid_.distance(vertex);
     if (!(depth > deepest.size) || (reach_out_ && !solid_.contains(vertex))) continue;
     deepest = {.at = vertex, .size = depth};

@@ -3,10 +3,13 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "medial_vk/dynamic_union.h"
 #include "solid/solid.h"
+#include "threads/worker_pool.h"
 
 namespace medial_vk {
 
@@ -34,6 +37,9 @@ class GapFinder {
   /// The same among those of one ball; no value if it has none.
   std::optional<Point> deepest_vertex(std::uint32_t slot);
 
+  /// So that deepest_vertex() knows it for these slots, different ones.
+  void find_deepest(std::span<const std::uint32_t> slots, WorkerPool& pool);
+
   struct Sample {
     Point at, inward;
     std::uint32_t slot;  ///< Of the ball that was nearest.
@@ -50,6 +56,8 @@ class GapFinder {
   const DynamicUnion& balls_;
   bool reach_out_;
   std::vector<Sample> samples_;
+  std::size_t widest_ = 0;  // the sample that had the widest gap the last time
+  std::vector<std::pair<double, std::uint32_t>> bounds_;
   std::vector<Gap> deepest_;         // by slot
   std::vector<std::uint8_t> known_;  // by slot
 };

@@ -1,6 +1,10 @@
 // Balls inside a solid that cannot grow.
 #pragma once
 
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include "medial_vk/ball.h"
 #include "solid/solid.h"
 
@@ -12,5 +16,11 @@ namespace medial_vk {
 /// radius is at most the exact distance of its centre. Radius 0 or below: the distance of the point to the boundary is
 /// below rounding.
 Ball maximal_ball(const Solid& solid, const Point& inside);
+/// The same, faster if one of these triangles limits the ball, such as those that limited a ball next to it; others
+/// that do are appended.
+Ball maximal_ball(const Solid& solid, const Point& inside, std::vector<std::uint32_t>& triangles);
+
+/// The nearest point of the boundary, found faster if it lies on one of these triangles.
+BvhHit closest_with(const Solid& solid, const Point& p, std::span<const std::uint32_t> triangles);
 
 }  // namespace medial_vk

@@ -6,6 +6,7 @@
 
 #include "base/point_ops.h"
 #include "bvh/triangle_distance.h"
+#include "sphere_fits/steps/maximal_ball.h"
 
 namespace medial_vk {
 
@@ -74,7 +75,7 @@ Point Slider::direction(const Ball& ball, const Exposure& exposure, double step,
   if (!(exposure.area > 0)) return {};
   contacts_.clear();
   for (const std::uint32_t triangle : touched) add_contact(ball, triangle);
-  const std::uint32_t nearest = solid_.closest(ball.centre).triangle;
+  const std::uint32_t nearest = closest_with(solid_, ball.centre, touched).triangle;
   if (!has_contact(nearest) && !add_contact(ball, nearest)) return {};
   // The ascent is seldom longer than a third of the area: such a step would have the full length.
   const double pace = step / (0.3 * exposure.area);
@@ -85,7 +86,7 @@ Point Slider::direction(const Ball& ball, const Exposure& exposure, double step,
     move = pace * (exposure.vector + exposure.area * average);
     size = length(move);
     if (size > step) move = (step / size) * move;
-    const std::uint32_t limiting = solid_.closest(ball.centre + move).triangle;
+    const std::uint32_t limiting = closest_with(solid_, ball.centre + move, touched).triangle;
     if (has_contact(limiting) || !add_contact(ball, limiting)) break;
   } while (last_limits(move) && contacts_.size() < kMostContacts);
   remember(touched);

@@ -1,0 +1,50 @@
+// How many balls hold each point of a lattice: the volume that a ball would add to their union, estimated.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "medial_vk/ball.h"
+
+namespace medial_vk {
+
+/// A cubic lattice in a box. The points of a ball follow from the ball alone, so that what comes and goes cancels.
+/// Queries may come from several threads at once.
+class Coverage {
+ public:
+  Coverage(const Point& lower, const Point& upper) : lower_(lower), upper_(upper) {}
+
+  /// Another lattice, with so many points per unit of volume (mesh units cubed), or fewer where the box would hold more
+  /// than 2^25. `balls`: all that hold points from now on, at most 65,535. Throws std::bad_alloc.
+  void divide(double density, std::span<const Ball> balls);
+  /// The volume that each point stands for; 0 before divide().
+  double cell() const { return spacing_ * spacing_ * spacing_; }
+
+  void add(const Ball& ball);
+  /// Precondition: it has been added.
+  void remove(const Ball& ball);
+  /// The volume of this ball's points in no other ball.
+  double uncovered(const Ball& ball) const;
+
+ private:
+  /// Points of a row.
+  struct Range {
+    std::size_t begin, end;
+  };
+  template <class Visit>
+  void for_each_row(const Ball& ball, const Visit& visit) const;
+  template <class Visit>
+  void for_each_word(std::size_t row, const Range& points, const Visit& visit) const;
+
+  Point lower_, upper_;
+  double spacing_ = 0;
+  std::array<std::size_t, 3> size_{};  // points along x, y, z; x varies fastest
+  std::vector<std::uint16_t> counts_;
+  std::size_t words_ = 0;            // of each row in free_
+  std::vector<std::uint64_t> free_;  // a bit for each point that no ball holds
+};
+
+}  // namespace medial_vk
