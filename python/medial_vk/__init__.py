@@ -71,6 +71,20 @@ from ._following import (
 from ._mesh import ClosestPoints, Mesh, MeshReport, read_mesh
 from ._native import VERSION as __version__
 from ._page import Page
+from ._plane import (
+    AXIS_NODE_KINDS,
+    PLANE_CURVE_KINDS,
+    AxisArcs,
+    AxisBranches,
+    AxisLine,
+    AxisNodes,
+    PlaneAxis,
+    PublishedAxis,
+    plane_axis,
+    plane_axis_as_published,
+)
+from ._plane_shape import CircleDecision, NearestOnBoundary, PlaneShape, ShapeReport
+from ._plane_sites import PlanePath, PlaneRoadmap, PlaneVoronoi, plane_voronoi
 from ._spheres import (
     CoverProof,
     EnvelopeDistances,
@@ -87,13 +101,19 @@ from ._spheres import (
 from ._unions import BallUnion, DeviceBallUnion, DualComplex, measure_union, measure_union_on_device
 
 __all__ = [
+    "AXIS_NODE_KINDS",
     "Analysis",
+    "AxisArcs",
+    "AxisBranches",
+    "AxisLine",
+    "AxisNodes",
     "BallCurvature",
     "BallUnion",
     "Balls",
     "Body",
     "CURVATURE_STATES",
     "Certificate",
+    "CircleDecision",
     "ClosestPoints",
     "Context",
     "CoverFollowMeasures",
@@ -119,9 +139,18 @@ __all__ = [
     "Mesh",
     "MeshReport",
     "NearBodies",
+    "NearestOnBoundary",
+    "PLANE_CURVE_KINDS",
     "Page",
     "Penetration",
     "PlacedBodies",
+    "PlaneAxis",
+    "PlanePath",
+    "PlaneRoadmap",
+    "PlaneShape",
+    "PlaneVoronoi",
+    "PublishedAxis",
+    "ShapeReport",
     "SheetRemoval",
     "Sheets",
     "Significance",
@@ -154,6 +183,9 @@ __all__ = [
     "measure_union",
     "measure_union_on_device",
     "penetration",
+    "plane_axis",
+    "plane_axis_as_published",
+    "plane_voronoi",
     "prove_spheres",
     "read_mesh",
     "rigid_pose",

@@ -37,14 +37,14 @@ std::string shape_text(const py::array& array) {
   fail_usage(fmt::format("`{}` has the shape {} where {} is expected", name, shape_text(array), expected));
 }
 
-/// Rows of three, of an array of the type `From`, wherever they lie in memory.
-template <class From, class To, class Convert>
-void read_rows(const py::array& array, std::vector<std::array<To, 3>>& rows, Convert convert) {
+/// Rows of n, of an array of the type `From`, wherever they lie in memory.
+template <class From, class To, std::size_t n, class Convert>
+void read_rows(const py::array& array, std::vector<std::array<To, n>>& rows, Convert convert) {
   const auto* bytes = static_cast<const char*>(array.data());
   const py::ssize_t step = array.strides(0), inner = array.strides(1);
   rows.resize(static_cast<std::size_t>(array.shape(0)));
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < n; ++k) {
       From value;  // an array need not be aligned
       std::memcpy(&value, bytes + static_cast<py::ssize_t>(i) * step + static_cast<py::ssize_t>(k) * inner,
                   sizeof(From));
@@ -82,8 +82,63 @@ std::vector<double> row_of(const py::array& doubles) {
   return numbers;
 }
 
-void require_rows_of_three(const py::array& array, const char* name) {
-  if (array.ndim() != 2 || array.shape(1) != 3) fail_shape(array, name, "(n, 3)");
+template <std::size_t n>
+void require_rows(const py::array& array, const char* name) {
+  static_assert(n == 2 || n == 3);
+  if (array.ndim() != 2 || array.shape(1) != py::ssize_t{n}) fail_shape(array, name, n == 3 ? "(n, 3)" : "(n, 2)");
+}
+
+template <std::size_t n>
+std::vector<std::array<double, n>> rows_of_numbers(py::handle array_like, const char* name) {
+  py::array array = as_array(array_like, name);
+  std::vector<std::array<double, n>> points;
+  if (is_empty_list(array)) return points;
+  require_rows<n>(array, name);
+  if (has_type<float>(array)) {
+    read_rows<float>(array, points, [](float x, std::size_t) { return double{x}; });
+    return points;
+  }
+  if (!has_type<double>(array)) array = as_doubles(array, name);
+  read_rows<double>(array, points, [](double x, std::size_t) { return x; });
+  return points;
+}
+
+template <std::size_t n>
+std::array<double, n> row_of_numbers(py::handle array_like, const char* name) {
+  static_assert(n == 2 || n == 3);
+  const py::array array = as_array(array_like, name);
+  if (array.ndim() != 1 || array.shape(0) != py::ssize_t{n}) fail_shape(array, name, n == 3 ? "(3,)" : "(2,)");
+  const std::vector<double> numbers = row_of(as_doubles(array, name));
+  std::array<double, n> point;
+  for (std::size_t k = 0; k < n; ++k) point[k] = numbers[k];
+  return point;
+}
+
+/// Of an array with two dimensions, or an empty list.
+template <std::size_t n>
+std::vector<std::array<std::uint32_t, n>> rows_of_indices(const py::array& array, const char* name) {
+  std::vector<std::array<std::uint32_t, n>> rows;
+  if (is_empty_list(array)) return rows;
+  const auto index = [name](auto value, std::size_t row) {
+    if (value < 0 || static_cast<std::uint64_t>(value) > std::numeric_limits<std::uint32_t>::max()) {
+      fail_usage(fmt::format("row {} of `{}` has the value {}, which is no index", row, name, value));
+    }
+    return static_cast<std::uint32_t>(value);
+  };
+  if (has_type<std::int32_t>(array)) {
+    read_rows<std::int32_t>(array, rows, index);
+  } else if (has_type<std::uint32_t>(array)) {
+    read_rows<std::uint32_t>(array, rows, [](std::uint32_t value, std::size_t) { return value; });
+  } else if (has_type<std::uint64_t>(array)) {
+    read_rows<std::uint64_t>(array, rows, index);
+  } else if (array.dtype().kind() == 'i' || array.dtype().kind() == 'u' || array.size() == 0) {
+    const py::array wide = py::array_t<std::int64_t>::ensure(array);
+    if (!wide) throw std::bad_alloc();
+    read_rows<std::int64_t>(wide, rows, index);
+  } else {
+    fail_usage(fmt::format("`{}` has the type {}, not one of integers", name, std::string(py::str(array.dtype()))));
+  }
+  return rows;
 }
 
 constexpr double kRotationTolerance = 1e-12;  // of the library's precondition (proximity.h)
@@ -128,52 +183,31 @@ Pose pose_of(const std::array<double, 16>& m, std::size_t index, const char* nam
 
 }  // namespace
 
-std::vector<Point> points_of(py::handle array_like, const char* name) {
-  py::array array = as_array(array_like, name);
-  std::vector<Point> points;
-  if (is_empty_list(array)) return points;
-  require_rows_of_three(array, name);
-  if (has_type<float>(array)) {
-    read_rows<float>(array, points, [](float x, std::size_t) { return double{x}; });
-    return points;
-  }
-  if (!has_type<double>(array)) array = as_doubles(array, name);
-  read_rows<double>(array, points, [](double x, std::size_t) { return x; });
-  return points;
+std::vector<Point> points_of(py::handle array_like, const char* name) { return rows_of_numbers<3>(array_like, name); }
+
+Point point_of(py::handle array_like, const char* name) { return row_of_numbers<3>(array_like, name); }
+
+std::vector<PlanePoint> plane_points_of(py::handle array_like, const char* name) {
+  return rows_of_numbers<2>(array_like, name);
 }
 
-Point point_of(py::handle array_like, const char* name) {
-  const py::array array = as_array(array_like, name);
-  if (array.ndim() != 1 || array.shape(0) != 3) fail_shape(array, name, "(3,)");
-  const std::vector<double> numbers = row_of(as_doubles(array, name));
-  return {numbers[0], numbers[1], numbers[2]};
-}
+PlanePoint plane_point_of(py::handle array_like, const char* name) { return row_of_numbers<2>(array_like, name); }
 
 std::vector<Triangle> triangles_of(py::handle array_like, const char* name) {
   const py::array array = as_array(array_like, name);
-  std::vector<Triangle> triangles;
-  if (is_empty_list(array)) return triangles;
-  require_rows_of_three(array, name);
-  const auto index = [name](auto value, std::size_t row) {
-    if (value < 0 || static_cast<std::uint64_t>(value) > std::numeric_limits<std::uint32_t>::max()) {
-      fail_usage(fmt::format("row {} of `{}` has the value {}, which is no index", row, name, value));
-    }
-    return static_cast<std::uint32_t>(value);
-  };
-  if (has_type<std::int32_t>(array)) {
-    read_rows<std::int32_t>(array, triangles, index);
-  } else if (has_type<std::uint32_t>(array)) {
-    read_rows<std::uint32_t>(array, triangles, [](std::uint32_t value, std::size_t) { return value; });
-  } else if (has_type<std::uint64_t>(array)) {
-    read_rows<std::uint64_t>(array, triangles, index);
-  } else if (array.dtype().kind() == 'i' || array.dtype().kind() == 'u' || array.size() == 0) {
-    const py::array wide = py::array_t<std::int64_t>::ensure(array);
-    if (!wide) throw std::bad_alloc();
-    read_rows<std::int64_t>(wide, triangles, index);
-  } else {
-    fail_usage(fmt::format("`{}` has the type {}, not one of integers", name, std::string(py::str(array.dtype()))));
-  }
-  return triangles;
+  if (!is_empty_list(array)) require_rows<3>(array, name);
+  return rows_of_indices<3>(array, name);
+}
+
+std::vector<std::uint32_t> indices_of(py::handle array_like, const char* name) {
+  const py::array array = as_array(array_like, name);
+  if (array.ndim() != 1) fail_shape(array, name, "(n,)");
+  const std::vector<std::array<std::uint32_t, 1>> rows =
+      rows_of_indices<1>(array[py::make_tuple(py::ellipsis(), py::none())], name);
+  std::vector<std::uint32_t> indices;
+  indices.reserve(rows.size());
+  for (const auto& [index] : rows) indices.push_back(index);
+  return indices;
 }
 
 std::vector<double> numbers_of(py::handle array_like, const char* name) {

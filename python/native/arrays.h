@@ -16,6 +16,7 @@
 
 #include "medial_vk/ball.h"
 #include "medial_vk/mesh_view.h"
+#include "medial_vk/plane_shape.h"
 #include "medial_vk/pose.h"
 
 namespace medial_vk::python {
@@ -25,9 +26,14 @@ namespace medial_vk::python {
 std::vector<Point> points_of(pybind11::handle array_like, const char* name);
 /// One point, shape (3,).
 Point point_of(pybind11::handle array_like, const char* name);
+/// Points of the plane, shape (n, 2), and one, shape (2,).
+std::vector<PlanePoint> plane_points_of(pybind11::handle array_like, const char* name);
+PlanePoint plane_point_of(pybind11::handle array_like, const char* name);
 /// The rows of an array of integers, shape (n, 3), whose values fit into 32 bits; all types of 32 and 64 bits are read
 /// in place. Errors: kUsage (also names the first row with a value that does not fit).
 std::vector<Triangle> triangles_of(pybind11::handle array_like, const char* name);
+/// The same of one integer, shape (n,).
+std::vector<std::uint32_t> indices_of(pybind11::handle array_like, const char* name);
 /// Numbers, shape (n,).
 std::vector<double> numbers_of(pybind11::handle array_like, const char* name);
 /// Centres, shape (n, 3), and radii, shape (n,).
@@ -56,8 +62,11 @@ pybind11::array_t<T> array_of(std::vector<std::array<T, n>> rows) {
   return pybind11::array_t<T>(shape, owned->empty() ? nullptr : owned->front().data(), owner);
 }
 
-/// Shape (3,).
-inline pybind11::array_t<double> array_of(const Point& point) { return pybind11::array_t<double>(3, point.data()); }
+/// Shape (3,), or (2,) of the plane.
+template <std::size_t n>
+pybind11::array_t<double> array_of(const std::array<double, n>& point) {
+  return pybind11::array_t<double>(n, point.data());
+}
 
 /// get(element) of each element of a range, as an array: a number for each, or a row.
 template <class Range, class Get>

@@ -67,5 +67,7 @@ void bind_unions(pybind11::module_& module);
 void bind_distances(pybind11::module_& module);
 void bind_following(pybind11::module_& module);
 void bind_boundary(pybind11::module_& module);
+void bind_plane(pybind11::module_& module);
+void bind_plane_axis(pybind11::module_& module);
 
 }  // namespace medial_vk::python

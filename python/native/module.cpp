@@ -24,4 +24,6 @@ PYBIND11_MODULE(_native, module) {
   python::bind_distances(module);
   python::bind_following(module);
   python::bind_boundary(module);
+  python::bind_plane(module);
+  python::bind_plane_axis(module);
 }

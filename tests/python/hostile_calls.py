@@ -45,6 +45,9 @@ class Hostile:
         self.meshes = [mesh, box, mesh.on_side("outside")]
         self.bodies = [mv.Body(mesh), mv.Body(box, inside, cover), mv.Body(None, inside), mv.Body(None, None, cover)]
         self.followers = [mv.Follower(box, inside, steps=0), mv.CoverFollower(box, cover)]
+        self.planes = [mv.PlaneShape([[0, 0], [4, 0], [4, 1], [1, 1], [1, 3], [0, 3]])]
+        self.axes = [mv.plane_axis(self.planes[0], object_angle=0.2)]
+        self.roadmaps = [mv.plane_voronoi([self.planes[0], [[2, 2], [3, 3]], [[3.0, 2.0]]]).roadmap()]
         self.shared = [self.numbers.random((64, 3)) for _ in range(4)]  # other threads write to them
 
     def one_of(self, *choices):
@@ -190,12 +193,30 @@ class Hostile:
             lambda: mv.curvature(self.balls(), spokes=self.one_of(None, (self.array(3, 3), self.array(3, 3)), 5)),
         )()
 
+    def plane(self):
+        n = self.rng.randrange(8)
+        shape = self.one_of(self.planes[0], self.planes[0], self.array(n, 2), [self.array(n, 2), self.array(3, 2)], self.mesh())
+        axis = self.axes[0]
+        self.one_of(
+            lambda: mv.PlaneShape(shape, fill=self.one_of("nonzero", "evenodd", "x"), threads=self.number(1)).report,
+            lambda: mv.plane_axis(shape, side=self.one_of("inside", "both", "x"), object_angle=self.number(0.6), radius=self.number(0.0),
+                                  margin=self.number(0.0), progress=self.callback()),
+            lambda: mv.plane_axis_as_published(self.planes[0], samples=self.one_of(0, 6, -1, "x"), object_angle=self.one_of(0.6, 3, None)),
+            lambda: self.planes[0].nearest(self.array(5, 2)),
+            lambda: self.planes[0].decide_circle(self.array(2), self.number(0.1), self.one_of(7, self.array(5), None, -1)),
+            lambda: axis.prune(self.number(0.1), self.number(0.2)).longest_paths(),
+            lambda: axis.lines(step=self.one_of(0.01, -1, math.nan, "x"), smooth=self.number(0.0)),
+            lambda: axis.at(self.one_of([0, 1], [10**9, 0], self.array(2), [-1, 0]), self.array(2)),
+            lambda: mv.plane_voronoi([shape, self.array(n, 2), [[5.0, 5.0]]], object_angle=self.number(0.0), progress=self.callback()),
+            lambda: self.roadmaps[0].widest_path(self.array(2), self.array(2)),
+        )()
+
     def call(self):
         """One call: the name of what it did, and of what it raised."""
         work = self.rng.choices(
             (self.make_mesh, self.queries, self.analyse, self.fit, self.prove, self.union, self.make_body, self.distance,
-             self.follow, self.boundary),
-            weights=(20, 20, 4, 4, 15, 15, 10, 30, 10, 10),
+             self.follow, self.boundary, self.plane),
+            weights=(20, 20, 4, 4, 15, 15, 10, 30, 10, 10, 20),
         )[0]
         try:
             work()

@@ -134,6 +134,17 @@ TEST(KnownAxes, BadOptionsAreRefused) {
   EXPECT_EQ(find_plane_axis(PreparedShape()).error().code, ErrorCode::kInvalidMesh);
 }
 
+TEST(KnownAxes, ProgressEndsWithTheWork) {
+  PlaneAxisOptions options;
+  options.threads = 1;
+  std::vector<double> shares;
+  ASSERT_TRUE(find_plane_axis(prepared({circle(1000, 1)}), options, [&](double done) { shares.push_back(done); }).ok());
+  ASSERT_GE(shares.size(), 4u);
+  EXPECT_LT(shares.front(), 0.5);
+  EXPECT_TRUE(std::ranges::is_sorted(shares));
+  EXPECT_EQ(shares.back(), 1);
+}
+
 TEST(KnownAxes, AStopIsObeyed) {
   std::stop_source stop;
   stop.request_stop();

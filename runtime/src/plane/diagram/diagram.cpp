@@ -11,13 +11,17 @@ namespace {
 
 constexpr std::size_t kLeavesAtATime = 64, kPairsAtATime = 64, kNodesAtATime = 512;
 
-/// Of all leaves, in their order.
-DiagramParts parts_of_leaves(const SiteSet& sites, const DiagramQuery& query, const CellTree& tree,
-                             const LoopWatch& watch) {
+std::vector<std::uint32_t> leaves_of(const CellTree& tree) {
   std::vector<std::uint32_t> leaves;
   for (std::uint32_t node = 0; node < tree.size(); ++node) {
     if (tree.state(node) == CellState::kLeaf) leaves.push_back(node);
   }
+  return leaves;
+}
+
+/// Of all leaves, in their order. Progress: half of all, a step for each leaf; the arcs are the other half.
+DiagramParts parts_of_leaves(const SiteSet& sites, const DiagramQuery& query, const CellTree& tree,
+                             const std::vector<std::uint32_t>& leaves, LoopWatch& watch) {
   std::vector<DiagramParts> found((leaves.size() + kLeavesAtATime - 1) / kLeavesAtATime);
   parallel_blocks(leaves.size(), kLeavesAtATime, query.threads, [&](std::size_t begin, std::size_t end) {
     watch.check();
@@ -25,6 +29,7 @@ DiagramParts parts_of_leaves(const SiteSet& sites, const DiagramQuery& query, co
     for (std::size_t i = begin; i < end; ++i) {
       leaf.find(tree.cell(leaves[i]), found[begin / kLeavesAtATime]);
     }
+    watch.finish(end - begin, 2 * leaves.size());
   });
   DiagramParts all;
   for (const DiagramParts& part : found) {
@@ -136,13 +141,16 @@ class ArcsOfPair {
   std::vector<std::uint32_t> between_;
 };
 
+/// Progress: as many steps as the tree has leaves.
 std::vector<OpenArc> arcs_of_pairs(const SiteSet& sites, const DiagramQuery& query, const CellTree& tree,
-                                   DiagramNodes& nodes, std::span<const ContactPair> pairs, const LoopWatch& watch) {
+                                   DiagramNodes& nodes, std::span<const ContactPair> pairs, std::size_t leaves,
+                                   LoopWatch& watch) {
   std::vector<std::vector<OpenArc>> found((pairs.size() + kPairsAtATime - 1) / kPairsAtATime);
   parallel_blocks(pairs.size(), kPairsAtATime, query.threads, [&](std::size_t begin, std::size_t end) {
     watch.check();
     ArcsOfPair of_pair(sites, query, tree, nodes);
     for (std::size_t i = begin; i < end; ++i) of_pair.find(pairs[i], found[begin / kPairsAtATime]);
+    watch.finish(leaves * end / pairs.size() - leaves * begin / pairs.size(), 2 * leaves);
   });
   std::vector<OpenArc> all;
   for (const std::vector<OpenArc>& part : found) all.insert(all.end(), part.begin(), part.end());
@@ -227,9 +235,10 @@ void drop_lone_nodes(const SiteSet& sites, const DiagramQuery& query, const Diag
 
 Diagram find_diagram(const SiteSet& sites, const DiagramQuery& query, LoopWatch& watch) {
   const CellTree tree = CellTree::build(sites, query, watch);
-  const DiagramParts parts = parts_of_leaves(sites, query, tree, watch);
+  const std::vector<std::uint32_t> leaves = leaves_of(tree);
+  const DiagramParts parts = parts_of_leaves(sites, query, tree, leaves, watch);
   DiagramNodes nodes(sites, query, tree, parts);
-  const std::vector<OpenArc> open = arcs_of_pairs(sites, query, tree, nodes, parts.pairs, watch);
+  const std::vector<OpenArc> open = arcs_of_pairs(sites, query, tree, nodes, parts.pairs, leaves.size(), watch);
   Diagram diagram;
   diagram.nodes = nodes.nodes();
   close_arcs(open, diagram);
