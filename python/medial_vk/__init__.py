@@ -18,6 +18,7 @@ from . import _native, errors
 from ._analysis import (
     Analysis,
     Certificate,
+    Fatness,
     MedialMesh,
     MedialSpheres,
     SheetRemoval,
@@ -85,6 +86,7 @@ from ._plane import (
 )
 from ._plane_shape import CircleDecision, NearestOnBoundary, PlaneShape, ShapeReport
 from ._plane_sites import PlanePath, PlaneRoadmap, PlaneVoronoi, plane_voronoi
+from ._sites import Site, SiteFaces, SitePath, SitePieces, SitePoints, SiteRoadmap, SiteVoronoi, site_voronoi
 from ._spheres import (
     CoverProof,
     EnvelopeDistances,
@@ -128,6 +130,7 @@ __all__ = [
     "EnvelopeDistances",
     "FOLLOW_ORIGINS",
     "FOLLOW_STATES",
+    "Fatness",
     "FirstContact",
     "FollowMeasures",
     "FollowedBalls",
@@ -154,6 +157,13 @@ __all__ = [
     "SheetRemoval",
     "Sheets",
     "Significance",
+    "Site",
+    "SiteFaces",
+    "SitePath",
+    "SitePieces",
+    "SitePoints",
+    "SiteRoadmap",
+    "SiteVoronoi",
     "SphereFit",
     "SphereFitMetrics",
     "SphereMeasures",
@@ -189,6 +199,7 @@ __all__ = [
     "prove_spheres",
     "read_mesh",
     "rigid_pose",
+    "site_voronoi",
     "thickness",
 ]
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from typing import Literal
 
     import numpy as np
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from ._mesh import MeshLike
     from ._page import Page
@@ -124,6 +124,18 @@ class MedialMesh(Result):
     hosted_points: int  #: Spheres that another one represents.
 
 
+class Fatness(Result):
+    """For which voxels a solid is fat (Section 8.3 of the source), by k object angles: medial spheres of neighbouring voxels
+    then overlap. This is what a sample of medial points says; the true least radius may be smaller."""
+
+    object_angles: NDArray[np.float64]  #: Radians, shape (k,).
+    spheres: NDArray[np.uint64]  #: Numbers of medial points with at least this object angle.
+    least_radii: NDArray[np.float64]  #: Of these; 0 if there are none.
+    largest_voxels: NDArray[np.float64]  #: The sample is fat for voxels up to this side.
+    components: NDArray[np.uint64]  #: Of their voxels, where those with a common corner are joined.
+    proves_connected: NDArray[np.bool_]  #: That the union of their spheres is connected.
+
+
 class Analysis(Result):
     """The result of ``analyse()``. What was not requested is None."""
 
@@ -148,8 +160,19 @@ class Analysis(Result):
         """Centres and radii of the spheres."""
         return Balls(centres=self.spheres.centres, radii=self.spheres.radii)
 
+    @property
+    def side(self) -> str:
+        """Of the boundary, on which the spheres are: "inside" or "outside"."""
+        return self.mesh.side
+
     def __len__(self) -> int:
         return len(self.spheres)
+
+    def fatness(self, object_angles: ArrayLike, *, threads: int = 0) -> Fatness:
+        """Least radii of the medial points, and what they mean for voxels, by k object angles in radians, shape (k,)."""
+        values = self._native.fatness(object_angles, threads)
+        values["proves_connected"] = values["proves_connected"].view(bool)
+        return Fatness(**values)
 
     def save(self, path: str | os.PathLike[str], *, ascii: bool = False) -> None:
         """Writes the spheres as the command-line tool does: ``.ply`` and ``.csv`` have the same bytes, ``.npz`` the
@@ -174,9 +197,13 @@ class Analysis(Result):
             raise UsageError(f"{name}: the extension is not .ply, .csv or .npz")
 
     def _arrays(self) -> dict[str, Any]:
-        spheres, marks = self.spheres, {}
+        spheres, marks = self.spheres, dict[str, Any]()
         if self.sheets is not None:
             marks = {"seam": self.sheets.is_seam, "rim": self.sheets.is_rim}
+        if self.side == "outside":
+            import numpy as np
+
+            marks["side"] = np.ones(len(spheres), dtype=np.uint8)
         return {
             "centre": spheres.centres,
             "radius": spheres.radii,

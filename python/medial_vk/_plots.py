@@ -171,3 +171,22 @@ def plot_on_surface(mesh: Any, points: Any, values: Any, ax: Any, label: str) ->
     if points.shape != mesh.vertices.shape or not np.array_equal(points, mesh.vertices):
         return plot_points(points, values, ax, mesh, label)
     return plot_mesh(mesh, ax, values, 1.0, label)
+
+
+def plot_faces(points: Any, corners: Any, pairs: Any, ax: Any, meshes: Any, alpha: float) -> Any:
+    """Faces of four corners, in a colour for each pair of numbers."""
+    from types import SimpleNamespace
+
+    axes = _axes(ax)
+    from matplotlib import colormaps
+
+    for mesh in meshes:
+        _draw_glass(axes, mesh)
+    triangles = np.concatenate([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]]).astype(np.int64)
+    known, number = np.unique(pairs, axis=0, return_inverse=True)
+    number = np.tile(np.ravel(number), 2)
+    for i in range(len(known)):
+        used, own = np.unique(triangles[number == i], return_inverse=True)
+        part = SimpleNamespace(vertices=points[used], triangles=np.reshape(own, (-1, 3)))
+        plot_mesh(part, axes, colormaps["tab10"](i % 10)[:3], alpha, "")
+    return axes

@@ -2,6 +2,7 @@
 
 #include <pybind11/stl.h>
 
+#include "medial_vk/fatness.h"
 #include "medial_vk/version.h"
 #include "native/arrays.h"
 #include "native/calls.h"
@@ -210,7 +211,9 @@ py::dict results(const AnalysisHandle& handle) {
 }
 
 MedialHeader header_of(const AnalysisHandle& handle) {
-  return make_header(handle.result.grid, handle.options.extraction, handle.mesh.longest_side());
+  MedialHeader header = make_header(handle.result.grid, handle.options.extraction, handle.mesh.longest_side());
+  if (handle.mesh.side() == MeshSide::kOutside) header.inside_count = 0;
+  return header;
 }
 
 py::bytes encode(const std::shared_ptr<AnalysisHandle>& handle, const std::string& format, bool ascii) {
@@ -268,8 +271,29 @@ py::bytes page(const std::shared_ptr<AnalysisHandle>& handle, const std::string&
                           Choice<UpAxis>{"-y", UpAxis::kMinusY}, Choice<UpAxis>{"-z", UpAxis::kMinusZ}});
   options.finish();
   return py::bytes(value_of(run([handle, name, up]() -> Result<std::string> {
-    return encode_page(handle->mesh.prepared().mesh, handle->result.spheres, record_of(*handle, name), up);
+    RunRecord record = record_of(*handle, name);
+    if (record.search.inside) {
+      Status status = record_fatness(handle->result.spheres, handle->options.threads, record);
+      if (!status) return status.error();
+    }
+    return encode_page(handle->mesh.prepared().mesh, handle->result.spheres, record, up);
   })));
+}
+
+py::dict fatness(const std::shared_ptr<AnalysisHandle>& handle, py::handle array, unsigned threads) {
+  const std::vector<double> angles = numbers_of(array, "object_angles");
+  const std::vector<Fatness> found = value_of(run([handle, angles, threads] {
+    return measure_fatness(handle->result.spheres, handle->result.grid, angles, {.threads = threads});
+  }));
+  py::dict out;
+  out["object_angles"] = column(found, [](const Fatness& at) { return at.object_angle; });
+  out["spheres"] = column(found, [](const Fatness& at) { return at.spheres; });
+  out["least_radii"] = column(found, [](const Fatness& at) { return at.least_radius; });
+  out["largest_voxels"] = column(found, [](const Fatness& at) { return at.largest_voxel; });
+  out["components"] = column(found, [](const Fatness& at) { return at.components; });
+  out["proves_connected"] =
+      column(found, [](const Fatness& at) { return static_cast<std::uint8_t>(at.proves_connected); });
+  return out;
 }
 
 }  // namespace
@@ -279,6 +303,7 @@ void bind_analysis(py::module_& module) {
       .def("results", &results)
       .def("encode", &encode)
       .def("header", &header_dict)
+      .def("fatness", &fatness)
       .def("page", &page);
   module.def("analyse", &analyse_mesh);
 }

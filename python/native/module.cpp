@@ -26,4 +26,5 @@ PYBIND11_MODULE(_native, module) {
   python::bind_boundary(module);
   python::bind_plane(module);
   python::bind_plane_axis(module);
+  python::bind_sites(module);
 }

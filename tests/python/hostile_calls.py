@@ -211,12 +211,31 @@ class Hostile:
             lambda: self.roadmaps[0].widest_path(self.array(2), self.array(2)),
         )()
 
+    def site(self):
+        kind = self.rng.randrange(6)
+        if kind < 2:
+            return self.one_of(self.meshes[0], self.meshes[1], self.mesh())
+        if kind < 4:
+            return self.array(self.rng.randrange(4), 3)
+        return mv.Site(self.one_of(None, None, self.meshes[1]), points=self.array(2, 3), segments=self.array(2, 2, 3),
+                       triangles=self.array(1, 3, 3))
+
+    def between(self):
+        sites = [self.meshes[1], self.one_of(mv.Site(segments=[[[2, 0, 0], [2, 1, 0]]]), [[0.0, 2, 0]], self.site())]
+        if self.rng.random() < 0.4:
+            sites.append(self.site())
+        found = mv.site_voronoi(sites, resolution=self.number(4, 6), margin=self.number(0.0), threads=self.number(1),
+                                progress=self.one_of(None, None, self.callback()))
+        roadmap = found.roadmap(threads=self.number(1), progress=self.callback())
+        if self.rng.random() < 0.5:
+            roadmap.widest_path(self.array(3), self.array(3))
+
     def call(self):
         """One call: the name of what it did, and of what it raised."""
         work = self.rng.choices(
             (self.make_mesh, self.queries, self.analyse, self.fit, self.prove, self.union, self.make_body, self.distance,
-             self.follow, self.boundary, self.plane),
-            weights=(20, 20, 4, 4, 15, 15, 10, 30, 10, 10, 20),
+             self.follow, self.boundary, self.plane, self.between),
+            weights=(20, 20, 4, 4, 15, 15, 10, 30, 10, 10, 20, 15),
         )[0]
         try:
             work()

@@ -1,5 +1,6 @@
 """Medial spheres: the numbers of the tool, progress, interruption, plots and pages."""
 
+import json
 import os
 import signal
 import subprocess
@@ -23,6 +24,12 @@ def write_obj(path, vertices, triangles):
     lines = [f"v {x!r} {y!r} {z!r}\n" for x, y, z in vertices.tolist()]
     lines += [f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in triangles.tolist()]
     path.write_text("".join(lines))
+
+
+def report_of(page):
+    """The report in a page."""
+    text = page.html.decode().split('<script type="application/json" id="report">')[1].split("</script>")[0]
+    return json.loads(text)
 
 
 class Results(unittest.TestCase):
@@ -156,6 +163,48 @@ class AsTheTool(unittest.TestCase):
                     found.save(path.with_name(name))
                     tool = path.with_name(name.replace("own", "tool"))
                     self.assertEqual(path.with_name(name).read_bytes(), tool.read_bytes(), name)
+
+    def test_same_bytes_outside(self):
+        vertices, triangles = shapes.torus()
+        outside = mv.analyse(mv.Mesh(vertices, triangles).on_side("outside", margin=0.5), resolution=30)
+        self.assertEqual(outside.side, "outside")
+        self.assertGreater(len(outside), 0)
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "torus.obj"
+            write_obj(path, vertices, triangles)
+            for extension in ("ply", "csv", "npz"):
+                tool, own = (path.with_name(f"{name}.{extension}") for name in ("tool", "own"))
+                subprocess.run([TOOL, str(path), "--resolution", "30", "--side", "outside", "--margin", "0.5", "--quiet",
+                                "-o", str(tool)], check=True)
+                outside.save(own)
+                if extension == "npz":
+                    with np.load(own) as mine, np.load(tool) as theirs:
+                        self.assertEqual(set(mine), set(theirs))
+                        for name in mine:
+                            np.testing.assert_array_equal(mine[name], theirs[name], name)
+                else:
+                    self.assertEqual(own.read_bytes(), tool.read_bytes())
+
+    def test_same_fatness(self):
+        """Of the report, and of the page, which has the report in it."""
+        vertices, triangles = shapes.torus()
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "torus.obj"
+            write_obj(path, vertices, triangles)
+            report = path.with_name("report.json")
+            subprocess.run([TOOL, str(path), "--resolution", "30", "--quiet", "--report", str(report), "-o", str(path) + ".ply"],
+                           check=True)
+            expected = json.loads(report.read_text())["fatness"]["angles"]
+        found = mv.analyse(mv.Mesh(vertices, triangles), resolution=30, volumes=True)
+        fatness = found.fatness([angle["object_angle"] for angle in expected])
+        for field, key in (("spheres", "points"), ("least_radii", "least_radius"), ("largest_voxels", "largest_voxel"),
+                           ("components", "components"), ("proves_connected", "proves_connected")):
+            np.testing.assert_array_equal(getattr(fatness, field), [angle[key] for angle in expected])
+        try:
+            page = found.page()
+        except mv.errors.UsageError as error:
+            self.skipTest(str(error))
+        self.assertEqual(report_of(page)["fatness"]["angles"], expected)
 
     def test_same_spheres(self):
         vertices, triangles = shapes.torus()

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <numbers>
 #include <stop_token>
 #include <string_view>
 #include <utility>
@@ -19,7 +18,6 @@
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/messages.h"
 #include "common/file_extension.h"
-#include "medial_vk/fatness.h"
 #include "output/charts_and_tables/ball_volumes.h"
 #include "output/charts_and_tables/volume_curve.h"
 #include "output/extraction_report/report_json.h"
@@ -46,24 +44,6 @@ AnalysisOptions analysis_options(const Options& options) {
   out.medial_mesh = !options.medial_mesh.empty();
   out.threads = options.threads;
   return out;
-}
-
-/// The object angle of the extraction, and the multiples of 0.2 above it.
-std::vector<double> angles_of_fatness(double least) {
-  std::vector<double> angles = {least};
-  for (int i = 1; i / 5.0 < 0.5 * std::numbers::pi; ++i) {
-    if (i / 5.0 > least + 1e-9) angles.push_back(i / 5.0);
-  }
-  return angles;
-}
-
-/// True if all medial points with the object angle of the extraction are known to lie in the voxels of the points that
-/// are written.
-bool holds_all_points(const RunRecord& record) {
-  const MeshReport& mesh = record.mesh;
-  return record.options.mode == Mode::kCertified && record.counters.undecided == 0 && record.simplified == 0 &&
-         (!record.removal || record.removal->sheets.empty()) && mesh.closed && mesh.intersections_known &&
-         mesh.intersecting_faces == 0 && mesh.sides_known && mesh.faces_within == 0 && mesh.faces_without == 0;
 }
 
 }  // namespace
@@ -236,13 +216,8 @@ Status MeshRun::make_files() {
 Status MeshRun::measure_fat() {
   if ((options_.report.empty() && options_.html.empty()) || record_.search.outside) return {};
   Stopwatch stopwatch;
-  FatnessRecord fatness;
-  Result<std::vector<Fatness>> of_angles = measure_fatness(
-      analysis_.spheres, record_.grid, angles_of_fatness(record_.options.object_angle), {.threads = options_.threads});
-  if (!of_angles) return of_angles.error();
-  fatness.of_angles = std::move(of_angles).value();
-  if (holds_all_points(record_)) fatness.proved_radius = least_medial_radius(analysis_.spheres, record_.grid);
-  record_.fatness = std::move(fatness);
+  Status status = record_fatness(analysis_.spheres, options_.threads, record_);
+  if (!status) return status;
   record_.host_times.push_back({"fatness", stopwatch.lap()});
   return {};
 }

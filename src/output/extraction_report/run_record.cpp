@@ -1,6 +1,8 @@
 #include "output/extraction_report/run_record.h"
 
 #include <algorithm>
+#include <numbers>
+#include <utility>
 
 namespace medial_vk {
 namespace {
@@ -20,6 +22,24 @@ std::uint64_t leading_components(const std::vector<double>& shares) {
   std::uint64_t count = 0;
   for (double held = 0; count < shares.size() && held < kLeadingShare; ++count) held += shares[count];
   return count;
+}
+
+/// The object angle of the extraction, and the multiples of 0.2 above it.
+std::vector<double> angles_of_fatness(double least) {
+  std::vector<double> angles = {least};
+  for (int i = 1; i / 5.0 < 0.5 * std::numbers::pi; ++i) {
+    if (i / 5.0 > least + 1e-9) angles.push_back(i / 5.0);
+  }
+  return angles;
+}
+
+/// True if all medial points with the object angle of the extraction are known to lie in the voxels of the points that
+/// are written.
+bool holds_all_points(const RunRecord& record) {
+  const MeshReport& mesh = record.mesh;
+  return record.options.mode == Mode::kCertified && record.counters.undecided == 0 && record.simplified == 0 &&
+         (!record.removal || record.removal->sheets.empty()) && mesh.closed && mesh.intersections_known &&
+         mesh.intersecting_faces == 0 && mesh.sides_known && mesh.faces_within == 0 && mesh.faces_without == 0;
 }
 
 }  // namespace
@@ -50,6 +70,17 @@ void record_analysis(const Analysis& analysis, RunRecord& record) {
 
 UnionRecord record_union(const Significance& significance) {
   return {significance.volume, significance.area, significance.topology, leading_components(significance.of_component)};
+}
+
+Status record_fatness(std::span<const MedialSphere> spheres, unsigned threads, RunRecord& record) {
+  FatnessRecord fatness;
+  Result<std::vector<Fatness>> of_angles =
+      measure_fatness(spheres, record.grid, angles_of_fatness(record.options.object_angle), {.threads = threads});
+  if (!of_angles) return of_angles.error();
+  fatness.of_angles = std::move(of_angles).value();
+  if (holds_all_points(record)) fatness.proved_radius = least_medial_radius(spheres, record.grid);
+  record.fatness = std::move(fatness);
+  return {};
 }
 
 }  // namespace medial_vk

@@ -16,6 +16,7 @@
 #include "medial_vk/fatness.h"
 #include "medial_vk/indexed_mesh.h"
 #include "medial_vk/medial_mesh.h"
+#include "medial_vk/result.h"
 #include "medial_vk/sheets.h"
 #include "medial_vk/significance.h"
 
@@ -121,6 +122,10 @@ struct RunRecord {
 /// Takes the results of an analysis into the record of its run. Options, volumes, times and the medial mesh, which the
 /// tool records in steps of their own, are left to the caller.
 void record_analysis(const Analysis& analysis, RunRecord& record);
+
+/// Measures fatness by the points inside that are written, `spheres`, and records it. The record has options, mesh and
+/// the results of the analysis already. Errors: kOutOfMemory.
+Status record_fatness(std::span<const MedialSphere> spheres, unsigned threads, RunRecord& record);
 
 /// Of the union of the balls of one side.
 UnionRecord record_union(const Significance& significance);

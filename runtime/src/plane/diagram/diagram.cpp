@@ -152,6 +152,7 @@ std::vector<OpenArc> arcs_of_pairs(const SiteSet& sites, const DiagramQuery& que
     for (std::size_t i = begin; i < end; ++i) of_pair.find(pairs[i], found[begin / kPairsAtATime]);
     watch.finish(leaves * end / pairs.size() - leaves * begin / pairs.size(), 2 * leaves);
   });
+  if (pairs.empty() && leaves > 0) watch.finish(leaves, 2 * leaves);
   std::vector<OpenArc> all;
   for (const std::vector<OpenArc>& part : found) all.insert(all.end(), part.begin(), part.end());
   return all;
