@@ -29,6 +29,7 @@ from ._analysis import (
     VoxelGrid,
     analyse,
 )
+from ._any_boundary import BoundaryAnalysis, analyse_boundary
 from ._balls import Balls
 from ._boundary import (
     CURVATURE_STATES,
@@ -113,6 +114,7 @@ __all__ = [
     "BallUnion",
     "Balls",
     "Body",
+    "BoundaryAnalysis",
     "CURVATURE_STATES",
     "Certificate",
     "CircleDecision",
@@ -179,6 +181,7 @@ __all__ = [
     "WallBall",
     "__version__",
     "analyse",
+    "analyse_boundary",
     "collide",
     "curvature",
     "default_context",
@@ -203,5 +206,6 @@ __all__ = [
     "thickness",
 ]
 
-# Calls that Ctrl-C has ended may still use a device.
+# Calls that Ctrl-C has ended may still use a device. Those of other threads may call functions.
 _atexit.register(_native.wait_for_abandoned)
+_atexit.register(_native.end_functions)

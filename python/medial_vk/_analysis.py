@@ -351,13 +351,8 @@ def analyse(
 def _analysis_of(mesh: Mesh, native: _native.Analysis) -> Analysis:
     values = native.results()
     passed, rejected = values.pop("certificate")
-    sheets = values.pop("sheets")
     significance = values.pop("significance")
     medial_mesh = values.pop("medial_mesh")
-    if sheets is not None:
-        sheets["is_seam"] = sheets["is_seam"].view(bool)
-        sheets["is_rim"] = sheets["is_rim"].view(bool)
-        sheets["is_small"] = sheets["is_small"].view(bool)
     for part in (significance, medial_mesh):
         if part is not None:
             part["topology"] = Topology(**part["topology"])
@@ -371,10 +366,19 @@ def _analysis_of(mesh: Mesh, native: _native.Analysis) -> Analysis:
         spheres=MedialSpheres(**values.pop("spheres")),
         undecided=UndecidedVoxels(**values.pop("undecided")),
         certificate=Certificate(passed=passed, rejected=rejected),
-        sheets=None if sheets is None else Sheets(**sheets),
+        sheets=sheets_of(values.pop("sheets")),
         significance=None if significance is None else Significance(**significance),
         medial_mesh=None if medial_mesh is None else MedialMesh(**medial_mesh),
         _native=native,
         **removals,
         **values,
     )
+
+
+def sheets_of(values: dict[str, Any] | None) -> Sheets | None:
+    """The sheets that the library has found."""
+    if values is None:
+        return None
+    for name in ("is_seam", "is_rim", "is_small"):
+        values[name] = values[name].view(bool)
+    return Sheets(**values)

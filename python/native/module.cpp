@@ -27,4 +27,5 @@ PYBIND11_MODULE(_native, module) {
   python::bind_plane(module);
   python::bind_plane_axis(module);
   python::bind_sites(module);
+  python::bind_any_boundary(module);
 }

@@ -230,12 +230,28 @@ class Hostile:
         if self.rng.random() < 0.5:
             roadmap.widest_path(self.array(3), self.array(3))
 
+    def function(self):
+        """Of points, that answers with points, or not."""
+        def fail(_points):
+            raise Raised("function")
+
+        def scale(points):
+            return points * (0.5 / np.maximum(np.linalg.norm(points, axis=1), 1e-12))[:, None]
+
+        return self.one_of(*6 * [scale], fail, lambda points: points, lambda points: self.array(len(points), 3), lambda: None, 7, None)
+
+    def any_boundary(self):
+        inside = self.one_of(None, lambda points: np.linalg.norm(points, axis=1) < 0.5, self.function())
+        mv.analyse_boundary(self.function(), self.one_of([-0.5] * 3, self.array(3)), self.one_of([0.5] * 3, self.array(3)), contains=inside,
+                            resolution=self.one_of(2, 3, 0, "x"), extra_levels=1, mode=self.one_of("certified", "thesis"),
+                            error=self.number(0.0), progress=self.callback(), threads=self.number(1, 2))
+
     def call(self):
         """One call: the name of what it did, and of what it raised."""
         work = self.rng.choices(
             (self.make_mesh, self.queries, self.analyse, self.fit, self.prove, self.union, self.make_body, self.distance,
-             self.follow, self.boundary, self.plane, self.between),
-            weights=(20, 20, 4, 4, 15, 15, 10, 30, 10, 10, 20, 15),
+             self.follow, self.boundary, self.plane, self.between, self.any_boundary),
+            weights=(20, 20, 12, 6, 15, 15, 10, 30, 10, 10, 20, 15, 15),
         )[0]
         try:
             work()

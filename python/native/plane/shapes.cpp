@@ -8,7 +8,7 @@
 #include "native/calls.h"
 #include "native/handles.h"
 #include "native/options.h"
-#include "native/plane_handles.h"
+#include "native/plane/plane_handles.h"
 
 namespace medial_vk::python {
 namespace {
