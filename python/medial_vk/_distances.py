@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from . import _native
 from ._balls import Balls, as_arrays
@@ -46,10 +46,11 @@ class Body:
         *,
         threads: int = 0,
     ) -> None:
-        if mesh is None:
+        self._mesh = None if mesh is None else as_mesh(mesh)
+        if self._mesh is None:
             self._native = _native.body_of_balls(*as_arrays(inside), *as_arrays(cover))
         else:
-            self._native = _native.body_of_mesh(as_mesh(mesh)._native, *as_arrays(inside), *as_arrays(cover), threads)
+            self._native = _native.body_of_mesh(self._mesh._native, *as_arrays(inside), *as_arrays(cover), threads)
 
     @property
     def inside(self) -> Balls:
@@ -65,6 +66,9 @@ class Body:
     def has_mesh(self) -> bool:
         """Whether distances by triangles are known."""
         return self._native.sizes()[0]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Body, (self._mesh, self.inside, self.cover)
 
     def __repr__(self) -> str:
         has_mesh, inside, cover = self._native.sizes()

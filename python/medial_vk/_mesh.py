@@ -26,24 +26,35 @@ class MeshReport(Result):
     triangles: int  #: After cleaning.
     merged_vertices: int  #: At exactly the position of an earlier one.
     unused_vertices: int  #: Of no triangle, left out.
+    fallback_polygons: int  #: Of a file: polygons that cross themselves or would take too long, cut into a fan.
     degenerates_dropped: int  #: Of zero area, or with a repeated corner.
+    caps_repaired: int  #: Of these: with a corner on the opposite side, at which the neighbour was divided.
     duplicates_dropped: int  #: With the same three corners as an earlier face.
+    inner_walls_dropped: int  #: Of these: between two solids that touch; both copies are dropped.
     open_edges: int  #: Of one triangle.
     non_manifold_edges: int  #: Of three or more triangles.
     inconsistent_edges: int  #: That two triangles traverse in the same direction.
     non_manifold_vertices: int
     components: int  #: Connected by shared edges.
-    reoriented_faces: int  #: Turned over.
+    reoriented_faces: int  #: Turned over, counted once for each of the next three reasons.
+    minority_faces: int  #: Turned over to agree with their neighbours.
+    reoriented_components: int  #: Turned over as a whole, because they were inside out.
+    inside_out: bool  #: All faces were turned over: the signed volume was negative.
     intersecting_faces: int  #: That meet another one outside their shared corners and edges.
+    intersections_known: bool  #: False if that test was cut short by its budget.
     cut_faces: int  #: Cut along their crossings with others.
     inner_faces: int  #: Left out: the inside lies on both sides of them.
     outer_faces: int  #: Of membranes outside the solid, left out.
+    hidden_open_edges: int  #: Of the given mesh, at holes inside other parts, which were filled.
     closed: bool
+    faces_within: int  #: With the inside on both sides.
+    faces_without: int  #: With the outside on both sides.
+    sides_known: bool  #: False if only a part of the faces was tested for these two.
     trusted_triangles: int  #: Whose outward normal the proofs may use.
     signed_volume: float  #: In cubed units of the mesh.
+    assumptions: list[str]  #: Sentences for people.
     lower: NDArray[np.float64]  #: Corner of the bounding box, shape (3,).
     upper: NDArray[np.float64]  #: The opposite corner, shape (3,).
-    assumptions: list[str]  #: Sentences for people.
 
 
 class ClosestPoints(Result):
@@ -72,7 +83,8 @@ class Mesh:
         UsageError: Wrong shapes or types.
         InvalidMeshError: An index out of range, a coordinate that is not finite, or nothing is enclosed.
 
-    The library keeps its own copy of the arrays, the only one that is made; they may change afterwards.
+    The library keeps its own copy of the arrays, the only one that is made; they may change afterwards. A mesh can be
+    pickled, for other processes: its prepared arrays are, and it is indexed again.
     """
 
     def __init__(
@@ -173,6 +185,15 @@ class Mesh:
 
         return plot_mesh(self, ax, colour, alpha, label)
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (self._native.state(),)
+
+    def __copy__(self) -> Mesh:
+        return self
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Mesh:
+        return self
+
     def __repr__(self) -> str:
         closed = "closed" if self.report.closed else "not closed"
         return f"<Mesh of {len(self.vertices)} vertices and {len(self.triangles)} triangles, {closed}>"
@@ -227,3 +248,8 @@ def _rows_of_three(faces: Any) -> Any:
 
         raise UsageError("the mesh has faces that are no triangles: triangulate it first")
     return array.reshape(-1, 4)[:, 1:]
+
+
+def _restored(state: dict[str, Any]) -> Mesh:
+    """A mesh that was pickled."""
+    return Mesh._of(_native.restore_mesh(state))

@@ -57,6 +57,7 @@ using ContextHandle = std::shared_ptr<SharedContext>;
 /// An immutable mesh with its index. Copies share their data.
 struct MeshHandle {
   IndexedMesh mesh;
+  std::optional<SideOptions> side = {};  ///< As given to on_side(), if it was.
 };
 
 void bind_context(pybind11::module_& module);

@@ -49,31 +49,109 @@ MeshHandle read_file(const std::string& path, py::dict options) {
   return indexed(std::move(mesh), prepare);
 }
 
+/// visit(name, field) for all fields of a report but its box.
+template <class Report, class Visit>
+void each_field(Report& report, const Visit& visit) {
+  visit("vertices", report.vertices);
+  visit("triangles", report.triangles);
+  visit("merged_vertices", report.merged_vertices);
+  visit("unused_vertices", report.unused_vertices);
+  visit("fallback_polygons", report.fallback_polygons);
+  visit("degenerates_dropped", report.degenerates_dropped);
+  visit("caps_repaired", report.caps_repaired);
+  visit("duplicates_dropped", report.duplicates_dropped);
+  visit("inner_walls_dropped", report.inner_walls_dropped);
+  visit("open_edges", report.open_edges);
+  visit("non_manifold_edges", report.non_manifold_edges);
+  visit("inconsistent_edges", report.inconsistent_edges);
+  visit("non_manifold_vertices", report.non_manifold_vertices);
+  visit("components", report.components);
+  visit("reoriented_faces", report.reoriented_faces);
+  visit("minority_faces", report.minority_faces);
+  visit("reoriented_components", report.reoriented_components);
+  visit("inside_out", report.inside_out);
+  visit("intersecting_faces", report.intersecting_faces);
+  visit("intersections_known", report.intersections_known);
+  visit("cut_faces", report.cut_faces);
+  visit("inner_faces", report.inner_faces);
+  visit("outer_faces", report.outer_faces);
+  visit("hidden_open_edges", report.hidden_open_edges);
+  visit("closed", report.closed);
+  visit("faces_within", report.faces_within);
+  visit("faces_without", report.faces_without);
+  visit("sides_known", report.sides_known);
+  visit("trusted_triangles", report.trusted_triangles);
+  visit("signed_volume", report.signed_volume);
+  visit("assumptions", report.assumptions);
+}
+
 py::dict report_dict(const MeshReport& report) {
   py::dict out;
-  out["vertices"] = report.vertices;
-  out["triangles"] = report.triangles;
-  out["merged_vertices"] = report.merged_vertices;
-  out["unused_vertices"] = report.unused_vertices;
-  out["degenerates_dropped"] = report.degenerates_dropped;
-  out["duplicates_dropped"] = report.duplicates_dropped;
-  out["open_edges"] = report.open_edges;
-  out["non_manifold_edges"] = report.non_manifold_edges;
-  out["inconsistent_edges"] = report.inconsistent_edges;
-  out["non_manifold_vertices"] = report.non_manifold_vertices;
-  out["components"] = report.components;
-  out["reoriented_faces"] = report.reoriented_faces;
-  out["intersecting_faces"] = report.intersecting_faces;
-  out["cut_faces"] = report.cut_faces;
-  out["inner_faces"] = report.inner_faces;
-  out["outer_faces"] = report.outer_faces;
-  out["closed"] = report.closed;
-  out["trusted_triangles"] = report.trusted_triangles;
-  out["signed_volume"] = report.signed_volume;
+  each_field(report, [&out](const char* name, const auto& field) { out[name] = field; });
   out["lower"] = array_of(report.lower);
   out["upper"] = array_of(report.upper);
-  out["assumptions"] = report.assumptions;
   return out;
+}
+
+/// All that a mesh is made of, the triangles as those of the inside: for pickling, and read by restored().
+py::dict state_of(const MeshHandle& handle) {
+  const PreparedMesh& prepared = handle.mesh.prepared();
+  std::vector<Triangle> triangles = prepared.mesh.triangles;
+  const bool is_outside = handle.mesh.side() == MeshSide::kOutside;
+  if (is_outside) {
+    for (Triangle& triangle : triangles) std::swap(triangle[1], triangle[2]);  // as on_side() turns them over
+  }
+  py::dict out;
+  out["vertices"] = array_of(std::vector<Point>(prepared.mesh.vertices));
+  out["triangles"] = array_of(std::move(triangles));
+  out["flags"] = array_of(std::vector<std::uint8_t>(prepared.flags));
+  out["vertex_of_input"] = array_of(std::vector<std::uint32_t>(prepared.vertex_of_input));
+  out["input_of_triangle"] = array_of(std::vector<std::uint32_t>(prepared.input_of_triangle));
+  each_field(prepared.report,
+             [&out](const char* name, const auto& field) { out[(std::string("report_") + name).c_str()] = field; });
+  out["side"] = handle.side ? (is_outside ? "outside" : "inside") : "";
+  out["margin"] = handle.side ? handle.side->margin : 0.0;
+  return out;
+}
+
+std::vector<std::uint8_t> flags_of(py::handle array) {
+  std::vector<std::uint8_t> flags;
+  for (const std::uint32_t flag : indices_of(array, "flags")) flags.push_back(static_cast<std::uint8_t>(flag));
+  return flags;
+}
+
+/// Error: kUsage (not what state_of() gives), and those of a mesh.
+MeshHandle restored(const py::dict& state) {
+  PreparedMesh prepared;
+  std::string side;
+  SideOptions on_side;
+  Options options(state.attr("copy")());
+  const auto array = [&options](const char* name) {
+    py::object value;
+    options.read(name, value);
+    return value;
+  };
+  prepared.mesh.vertices = points_of(array("vertices"), "vertices");
+  prepared.mesh.triangles = triangles_of(array("triangles"), "triangles");
+  prepared.flags = flags_of(array("flags"));
+  prepared.vertex_of_input = indices_of(array("vertex_of_input"), "vertex_of_input");
+  prepared.input_of_triangle = indices_of(array("input_of_triangle"), "input_of_triangle");
+  each_field(prepared.report, [&options](const char* name, auto& field) {
+    options.read((std::string("report_") + name).c_str(), field);
+  });
+  options.read("side", side);
+  options.read("margin", on_side.margin);
+  options.finish();
+  on_side.side = side == "outside" ? MeshSide::kOutside : MeshSide::kInside;
+  return value_of(
+      run([prepared = std::move(prepared), is_plain = side.empty(), on_side]() mutable -> Result<MeshHandle> {
+        Result<IndexedMesh> made = IndexedMesh::build(std::move(prepared));
+        if (!made) return made.error();
+        if (is_plain) return MeshHandle{std::move(made).value()};
+        Result<IndexedMesh> turned = made.value().on_side(on_side);
+        if (!turned) return turned.error();
+        return MeshHandle{std::move(turned).value(), on_side};
+      }));
 }
 
 /// A view of rows in the memory of a mesh, which it keeps alive and nobody can write to.
@@ -96,15 +174,17 @@ MeshHandle on_side(const MeshHandle& handle, py::dict values) {
   options.read("margin", made.margin);
   options.read("threads", made.threads);
   options.finish();
-  return {value_of(run([mesh = handle.mesh, made] { return mesh.on_side(made); }))};
+  return {value_of(run([mesh = handle.mesh, made] { return mesh.on_side(made); })), made};
 }
 
 MeshHandle moved(const MeshHandle& handle, py::handle vertices) {
-  return {value_of(run([mesh = handle.mesh, points = points_of(vertices, "vertices")]() mutable -> Result<IndexedMesh> {
-    Status status = mesh.move_vertices(points);
-    if (!status) return status.error();
-    return mesh;
-  }))};
+  IndexedMesh made =
+      value_of(run([mesh = handle.mesh, points = points_of(vertices, "vertices")]() mutable -> Result<IndexedMesh> {
+        Status status = mesh.move_vertices(points);
+        if (!status) return status.error();
+        return mesh;
+      }));
+  return {std::move(made), handle.side};
 }
 
 /// Beyond this size squares of coordinates could overflow.
@@ -175,11 +255,13 @@ void bind_mesh(py::module_& module) {
            [](const MeshHandle& mesh) {
              return py::make_tuple(array_of(mesh.mesh.region_lower()), array_of(mesh.mesh.region_upper()));
            })
+      .def("state", &state_of)
       .def("on_side", &on_side)
       .def("moved", &moved)
       .def("closest_points", &closest_points)
       .def("depths", &depths);
   module.def("make_mesh", &make_mesh);
+  module.def("restore_mesh", &restored);
   module.def("read_mesh", &read_file);
 }
 

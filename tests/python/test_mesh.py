@@ -1,5 +1,9 @@
 """Meshes from arrays of every type, and from objects of other packages."""
 
+import concurrent.futures
+import copy
+import multiprocessing
+import pickle
 import subprocess
 import sys
 import tempfile
@@ -11,6 +15,11 @@ import numpy as np
 import shapes
 
 import medial_vk as mv
+
+
+def radii_of(mesh):
+    """Of its medial spheres."""
+    return mv.analyse(mesh, resolution=20).spheres.radii
 
 
 class Arrays(unittest.TestCase):
@@ -180,6 +189,84 @@ class Queries(unittest.TestCase):
         self.assertGreater(outside.longest_side, 1.5 - 1e-9)
         with self.assertRaisesRegex(mv.errors.UsageError, "inside, outside"):
             mesh.on_side("above")
+
+
+class Pickling(unittest.TestCase):
+    """A mesh is the same after it, for every call."""
+
+    def assert_same(self, mesh, other):
+        for name in ("vertices", "triangles", "vertex_of_input", "triangle_of_input"):
+            np.testing.assert_array_equal(getattr(mesh, name), getattr(other, name), name)
+        for name in mv.MeshReport._fields:
+            np.testing.assert_array_equal(getattr(mesh.report, name), getattr(other.report, name), name)
+        self.assertEqual((mesh.side, mesh.longest_side), (other.side, other.longest_side))
+        one, two = (mv.analyse(m, resolution=14) for m in (mesh, other))
+        self.assertGreater(len(one), 0)
+        for name in ("centres", "radii", "flux", "sheets"):
+            np.testing.assert_array_equal(getattr(one.spheres, name), getattr(two.spheres, name))
+
+    def test_meshes(self):
+        vertices, triangles = shapes.torus(around=20, across=10)
+        two_boxes = [np.concatenate(parts) for parts in ((shapes.box()[0], shapes.box(middle=(0.4, 0.3, 0.2))[0]),
+                                                         (shapes.box()[1], shapes.box()[1] + 8))]
+        torus = mv.Mesh(vertices, triangles)
+        open_box = mv.Mesh(shapes.box()[0], shapes.box()[1][2:])
+        for name, mesh in (
+            ("closed", torus),
+            ("turned over, with unused vertices", mv.Mesh(np.concatenate([vertices, vertices[:2] + 9]), triangles[:, ::-1])),
+            ("cut", mv.Mesh(*two_boxes)),
+            ("open", open_box),
+            ("outside", torus.on_side("outside", margin=0.3)),
+            ("outside of an open mesh", open_box.on_side("outside")),
+            ("inside of a box", torus.on_side("inside", margin=0.1)),
+        ):
+            with self.subTest(name):
+                self.assert_same(mesh, pickle.loads(pickle.dumps(mesh)))
+        self.assertGreater(mv.Mesh(*two_boxes).report.cut_faces, 0)
+
+    def test_a_moved_mesh(self):
+        mesh = mv.Mesh(*shapes.torus()).on_side("outside").moved(2 * mv.Mesh(*shapes.torus()).vertices)
+        other = pickle.loads(pickle.dumps(mesh))
+        np.testing.assert_array_equal(mesh.vertices, other.vertices)
+        self.assertEqual(mesh.longest_side, other.longest_side)
+        self.assertEqual(mesh.moved(mesh.vertices * 3).longest_side, other.moved(mesh.vertices * 3).longest_side)
+        points = np.random.default_rng(1).normal(size=(50, 3))
+        # The trees differ, and with them which of equally near triangles is taken.
+        near, other_near = (m.closest_points(points).distances for m in (mesh, other))
+        np.testing.assert_allclose(near, other_near, rtol=1e-14)
+
+    def test_copies_are_the_mesh_itself(self):
+        mesh = mv.Mesh(*shapes.box())
+        self.assertIs(copy.copy(mesh), mesh)
+        self.assertIs(copy.deepcopy([mesh])[0], mesh)
+
+    def test_bodies(self):
+        mesh = mv.Mesh(*shapes.box())
+        balls = [[0.0, 0, 0, 0.5]], [[0.0, 0, 0, 1.0]]
+        poses = np.stack([shapes.pose((x, 0.2, 0), x) for x in (0.5, 1.5, 4.0)])
+        for body in (mv.Body(mesh, *balls), mv.Body(None, *balls)):
+            other = pickle.loads(pickle.dumps(body))
+            self.assertEqual(repr(body), repr(other))
+            np.testing.assert_array_equal(mv.distance_bounds(body, body, poses).lower, mv.distance_bounds(other, other, poses).lower)
+            if body.has_mesh:
+                np.testing.assert_array_equal(mv.distances(body, body, poses).upper, mv.distances(other, body, poses).upper)
+
+    def test_other_processes(self):
+        mesh = mv.Mesh(*shapes.torus())
+        with concurrent.futures.ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:
+            radii = pool.submit(radii_of, mesh).result(timeout=120)
+        np.testing.assert_array_equal(radii, radii_of(mesh))
+
+    def test_a_state_of_something_else(self):
+        from medial_vk import _mesh
+
+        state = mv.Mesh(*shapes.box())._native.state()
+        for change in ({"triangles": state["triangles"] + 5}, {"flags": state["flags"][1:]}, {"report_closed": "x"}, {"vertices": None}):
+            with self.assertRaises(mv.errors.Error):
+                _mesh._restored({**state, **change})
+        for name in state:
+            with self.assertRaises(mv.errors.Error):
+                _mesh._restored({key: value for key, value in state.items() if key != name})
 
 
 class Import(unittest.TestCase):
