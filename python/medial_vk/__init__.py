@@ -70,9 +70,11 @@ from ._following import (
     Follower,
     FollowMeasures,
 )
+from ._groups import BodyGroup, LeastDistances
 from ._mesh import ClosestPoints, Mesh, MeshReport, read_mesh
 from ._native import VERSION as __version__
 from ._page import Page
+from ._parts import Part, PartFit, fit_parts
 from ._plane import (
     AXIS_NODE_KINDS,
     PLANE_CURVE_KINDS,
@@ -114,6 +116,7 @@ __all__ = [
     "BallUnion",
     "Balls",
     "Body",
+    "BodyGroup",
     "BoundaryAnalysis",
     "CURVATURE_STATES",
     "Certificate",
@@ -138,6 +141,7 @@ __all__ = [
     "FollowedBalls",
     "Follower",
     "InsideProof",
+    "LeastDistances",
     "LeastWall",
     "MedialMesh",
     "MedialSpheres",
@@ -147,6 +151,8 @@ __all__ = [
     "NearestOnBoundary",
     "PLANE_CURVE_KINDS",
     "Page",
+    "Part",
+    "PartFit",
     "Penetration",
     "PlacedBodies",
     "PlaneAxis",
@@ -189,6 +195,7 @@ __all__ = [
     "distances",
     "errors",
     "first_contact",
+    "fit_parts",
     "fit_spheres",
     "least_wall",
     "list_devices",

@@ -168,19 +168,25 @@ class PlacedBodies:
         return NearBodies(**self._native.nearest(body._native, _as_many(pose)[0], options))
 
 
-def distance_bounds(a: Body, b: Body, poses: ArrayLike, *, threads: int = 0) -> DistanceBounds:
+def distance_bounds(
+    a: Body, b: Body, poses: ArrayLike, *, start: DistanceBounds | None = None, threads: int = 0
+) -> DistanceBounds:
     """Intervals by balls alone, in microseconds a pose.
 
     Args:
         a, b: The bodies.
         poses: Matrices that take the frame of ``b`` to that of ``a``, shape (n, 4, 4), or (4, 4) for one.
+        start: For one pose: the result of an earlier one of the same bodies, with whose pairs the search starts. It is
+            faster if the pose has changed little. Many poses start from each other.
 
     Raises:
         UsageError: A matrix that is no rigid motion to within 1e-12; ``rigid_pose()`` makes the nearest one.
     """
     many, is_one = _as_many(poses)
     if is_one:
-        return DistanceBounds(**_native.distance_bounds_of_one(a._native, b._native, many))
+        pairs = None if start is None else (start.cover_pairs, start.inside_pairs)
+        return DistanceBounds(**_native.distance_bounds_of_one(a._native, b._native, many, pairs))
+    _require_no_start(start)
     return DistanceBounds(**_native.distance_bounds(a._native, b._native, many, threads))
 
 
@@ -192,6 +198,7 @@ def distances(
     tolerance: float = 0.0,
     limit: float = math.inf,
     surfaces_only: bool = False,
+    start: Distances | None = None,
     threads: int = 0,
 ) -> Distances:
     """Distances by triangles, in intervals as wide as rounding, or ``tolerance``, requires.
@@ -202,11 +209,15 @@ def distances(
         tolerance: Greatest width of an interval, in units of the meshes.
         limit: Where the distance is greater, only that is proved.
         surfaces_only: Distances of the surfaces, even where one solid lies inside the other.
+        start: As of ``distance_bounds()``.
     """
     many, is_one = _as_many(poses)
     options = {"tolerance": tolerance, "limit": limit, "surfaces_only": surfaces_only, "threads": threads}
-    find = _native.distance_of_one if is_one else _native.distances
-    return Distances(**find(a._native, b._native, many, options))
+    if is_one:
+        triangles = None if start is None else start.triangles
+        return Distances(**_native.distance_of_one(a._native, b._native, many, options, triangles))
+    _require_no_start(start)
+    return Distances(**_native.distances(a._native, b._native, many, options))
 
 
 def collide(a: Body, b: Body, poses: ArrayLike, *, by_balls: bool = False, threads: int = 0) -> NDArray[np.uint8]:
@@ -318,3 +329,9 @@ def _as_many(poses: ArrayLike) -> tuple[ArrayLike, bool]:
         return poses[None], True  # type: ignore[index, call-overload]
     return poses, False
 
+
+def _require_no_start(start: object) -> None:
+    if start is not None:
+        from .errors import UsageError
+
+        raise UsageError("`start` is for one pose, of the shape (4, 4)")

@@ -140,6 +140,8 @@ def _rings_of(shape: Any) -> list[Any]:
         return _rings_of_geometry(geometry)
     import numpy as np
 
+    if isinstance(shape, memoryview):
+        shape = np.asarray(shape)  # its rows cannot be taken
     try:
         rings = list(shape)
     except TypeError:

@@ -202,7 +202,7 @@ def fit_spheres(
         balls=sets[-1],
         levels=sets,
         reach=values["reach"],
-        measures=_measures_of(values["measures"]),
+        measures=measures_of(values["measures"]),
         solid_volume=values["solid_volume"],
     )
 
@@ -225,7 +225,8 @@ def measure_gap(mesh: MeshLike, balls: BallsLike, *, threads: int = 0) -> tuple[
     return _native.measure_gap(as_mesh(mesh)._native, *as_arrays(balls), threads)
 
 
-def _measures_of(values: dict[str, Any]) -> SphereMeasures:
+def measures_of(values: dict[str, Any]) -> SphereMeasures:
+    """The measures that the library has made."""
     return SphereMeasures(
         diagonal=values["diagonal"],
         inside=_made(InsideProof, values["inside"]),

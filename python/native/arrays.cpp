@@ -199,6 +199,12 @@ std::vector<Triangle> triangles_of(py::handle array_like, const char* name) {
   return rows_of_indices<3>(array, name);
 }
 
+std::vector<std::array<std::uint32_t, 2>> index_pairs_of(py::handle array_like, const char* name) {
+  const py::array array = as_array(array_like, name);
+  if (!is_empty_list(array)) require_rows<2>(array, name);
+  return rows_of_indices<2>(array, name);
+}
+
 std::vector<std::uint32_t> indices_of(py::handle array_like, const char* name) {
   const py::array array = as_array(array_like, name);
   if (array.ndim() != 1) fail_shape(array, name, "(n,)");

@@ -32,7 +32,8 @@ PlanePoint plane_point_of(pybind11::handle array_like, const char* name);
 /// The rows of an array of integers, shape (n, 3), whose values fit into 32 bits; all types of 32 and 64 bits are read
 /// in place. Errors: kUsage (also names the first row with a value that does not fit).
 std::vector<Triangle> triangles_of(pybind11::handle array_like, const char* name);
-/// The same of one integer, shape (n,).
+/// The same of two integers, shape (n, 2), and of one, shape (n,).
+std::vector<std::array<std::uint32_t, 2>> index_pairs_of(pybind11::handle array_like, const char* name);
 std::vector<std::uint32_t> indices_of(pybind11::handle array_like, const char* name);
 /// Numbers, shape (n,).
 std::vector<double> numbers_of(pybind11::handle array_like, const char* name);

@@ -66,9 +66,30 @@ Pose only_pose(py::handle array) {
 
 py::tuple pair_tuple(const BallPair& pair) { return py::make_tuple(index_of(pair.a), index_of(pair.b)); }
 
-py::dict bounds_of_one(const std::shared_ptr<Body>& a, const std::shared_ptr<Body>& b, py::handle array) {
+/// Two indices, of which negative ones are none; other numbers are none, too.
+BallPair pair_of(const py::handle& pair) {
+  const auto number = [](std::int64_t i) {
+    return i < 0 || i >= BallPair::kNone ? BallPair::kNone : static_cast<std::uint32_t>(i);
+  };
+  try {
+    const auto [a, b] = pair.cast<std::pair<std::int64_t, std::int64_t>>();
+    return {number(a), number(b)};
+  } catch (const py::cast_error&) {
+    fail_usage("`start` is no result for one pose");
+  }
+}
+
+/// `start`: the pairs of covers and of balls inside of an earlier result, or None.
+py::dict bounds_of_one(const std::shared_ptr<Body>& a, const std::shared_ptr<Body>& b, py::handle array,
+                       const py::object& start) {
   const Pose pose = only_pose(array);
-  const DistanceBounds result = run_here([&] { return distance_bounds(*a, *b, pose); });
+  DistanceBounds from;
+  if (!start.is_none()) {
+    const auto pairs = start.cast<py::tuple>();
+    from.cover_pair = pair_of(pairs[0]);
+    from.inside_pair = pair_of(pairs[1]);
+  }
+  const DistanceBounds result = run_here([&] { return distance_bounds(*a, *b, pose, from); });
   py::dict out;
   out["lower"] = result.lower;
   out["upper"] = result.upper;
@@ -151,12 +172,19 @@ py::dict exact(const std::shared_ptr<Body>& a, const std::shared_ptr<Body>& b, p
   return out;
 }
 
-py::dict exact_of_one(const std::shared_ptr<Body>& a, const std::shared_ptr<Body>& b, py::handle array,
-                      py::dict values) {
+/// `start`: the triangles of an earlier result, or None.
+py::dict exact_of_one(const std::shared_ptr<Body>& a, const std::shared_ptr<Body>& b, py::handle array, py::dict values,
+                      const py::object& start) {
   const Pose pose = only_pose(array);
   unsigned threads = 0;
   const DistanceOptions options = distance_options(std::move(values), threads);
-  const Distance result = value_of(run_here([&] { return distance(*a, *b, pose, options); }));
+  Distance from;
+  if (!start.is_none()) {
+    const BallPair triangles = pair_of(start);
+    from.triangle_a = triangles.a;
+    from.triangle_b = triangles.b;
+  }
+  const Distance result = value_of(run_here([&] { return distance(*a, *b, pose, options, from); }));
   py::dict out;
   out["lower"] = result.lower;
   out["upper"] = result.upper;

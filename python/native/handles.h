@@ -72,5 +72,7 @@ void bind_plane(pybind11::module_& module);
 void bind_plane_axis(pybind11::module_& module);
 void bind_sites(pybind11::module_& module);
 void bind_any_boundary(pybind11::module_& module);
+void bind_part_fits(pybind11::module_& module);
+void bind_body_groups(pybind11::module_& module);
 
 }  // namespace medial_vk::python

@@ -28,4 +28,6 @@ PYBIND11_MODULE(_native, module) {
   python::bind_plane_axis(module);
   python::bind_sites(module);
   python::bind_any_boundary(module);
+  python::bind_part_fits(module);
+  python::bind_body_groups(module);
 }

@@ -6,34 +6,12 @@
 #include "native/calls.h"
 #include "native/handles.h"
 #include "native/options.h"
+#include "native/sphere_dicts.h"
 
 namespace medial_vk::python {
 namespace {
 
 namespace py = pybind11;
-
-SphereFitOptions fit_options(py::dict values) {
-  SphereFitOptions made;
-  Options options(std::move(values));
-  options.read("contract", made.contract,
-               std::array{Choice<SphereContract>{"inside", SphereContract::kInside},
-                          Choice<SphereContract>{"cover", SphereContract::kCover},
-                          Choice<SphereContract>{"balanced", SphereContract::kBalanced}});
-  options.read("method", made.method,
-               std::array{Choice<SphereMethod>{"best", SphereMethod::kBest},
-                          Choice<SphereMethod>{"source", SphereMethod::kSource}});
-  options.read("count", made.count);
-  options.read("error", made.error);
-  options.read("max_gap", made.max_gap);
-  options.read("resolution", made.resolution);
-  options.read("object_angle", made.object_angle);
-  options.read("levels", made.levels);
-  options.read("balls_only", made.balls_only);
-  options.read("for_distances", made.for_distances);
-  options.read("threads", made.threads);
-  options.finish();
-  return made;
-}
 
 py::tuple bounds_tuple(const Bounds& bounds) { return py::make_tuple(bounds.lower, bounds.upper); }
 
@@ -62,7 +40,29 @@ py::dict cover_dict(const CoverProof& proof) {
   return out;
 }
 
-/// With `balls_only` there is the proof of the contract alone.
+}  // namespace
+
+SphereFitOptions read_fit_options(Options& options) {
+  SphereFitOptions made;
+  options.read("contract", made.contract,
+               std::array{Choice<SphereContract>{"inside", SphereContract::kInside},
+                          Choice<SphereContract>{"cover", SphereContract::kCover},
+                          Choice<SphereContract>{"balanced", SphereContract::kBalanced}});
+  options.read("method", made.method,
+               std::array{Choice<SphereMethod>{"best", SphereMethod::kBest},
+                          Choice<SphereMethod>{"source", SphereMethod::kSource}});
+  options.read("count", made.count);
+  options.read("error", made.error);
+  options.read("max_gap", made.max_gap);
+  options.read("resolution", made.resolution);
+  options.read("object_angle", made.object_angle);
+  options.read("levels", made.levels);
+  options.read("balls_only", made.balls_only);
+  options.read("for_distances", made.for_distances);
+  options.read("threads", made.threads);
+  return made;
+}
+
 py::dict measures_dict(const SphereMeasures& measures, bool balls_only) {
   py::dict volume;
   volume["solid"] = measures.volume.solid;
@@ -101,20 +101,28 @@ py::dict measures_dict(const SphereMeasures& measures, bool balls_only) {
   return out;
 }
 
+void add_levels(const std::vector<std::vector<Ball>>& levels, const std::vector<ReachOut>& reach, py::dict& out) {
+  py::list of_levels, of_reach;
+  for (const std::vector<Ball>& level : levels) of_levels.append(balls_dict(level));
+  for (const ReachOut& at : reach) of_reach.append(py::make_tuple(at.mean, at.least, at.greatest));
+  out["levels"] = std::move(of_levels);
+  out["reach"] = std::move(of_reach);
+}
+
+namespace {
+
 py::dict fit_dict(const SphereFit& fit, bool balls_only) {
-  py::list levels, reach;
-  for (const std::vector<Ball>& level : fit.levels) levels.append(balls_dict(level));
-  for (const ReachOut& out : fit.reach) reach.append(py::make_tuple(out.mean, out.least, out.greatest));
   py::dict out;
-  out["levels"] = std::move(levels);
-  out["reach"] = std::move(reach);
+  add_levels(fit.levels, fit.reach, out);
   out["measures"] = measures_dict(fit.measures, balls_only);
   out["solid_volume"] = fit.solid_volume ? py::object(py::float_(*fit.solid_volume)) : py::object(py::none());
   return out;
 }
 
 py::dict fit_mesh(const MeshHandle& mesh, const ContextHandle& context, py::dict values, const py::object& progress) {
-  const SphereFitOptions options = fit_options(std::move(values));
+  Options given(std::move(values));
+  const SphereFitOptions options = read_fit_options(given);
+  given.finish();
   const CallWithProgress reported(progress);
   const StageProgress on_progress = reported.stages();
   const auto call = reported.call;

@@ -45,6 +45,7 @@ class Hostile:
         self.meshes = [mesh, box, mesh.on_side("outside")]
         self.bodies = [mv.Body(mesh), mv.Body(box, inside, cover), mv.Body(None, inside), mv.Body(None, None, cover)]
         self.followers = [mv.Follower(box, inside, steps=0), mv.CoverFollower(box, cover)]
+        self.groups = [mv.BodyGroup(self.bodies[:2], [0, 1])]
         self.planes = [mv.PlaneShape([[0, 0], [4, 0], [4, 1], [1, 1], [1, 3], [0, 3]])]
         self.axes = [mv.plane_axis(self.planes[0], object_angle=0.2)]
         self.roadmaps = [mv.plane_voronoi([self.planes[0], [[2, 2], [3, 3]], [[3.0, 2.0]]]).roadmap()]
@@ -171,6 +172,8 @@ class Hostile:
         a, b, poses = self.body(), self.body(), self.poses()
         self.one_of(
             lambda: mv.distance_bounds(a, b, poses, threads=self.number(1)),
+            lambda: mv.distance_bounds(a, b, poses, start=mv.distance_bounds(b, a, poses)),
+            lambda: mv.distances(a, b, poses, start=mv.distances(b, a, poses)),
             lambda: mv.distances(a, b, poses, tolerance=self.number(0.0), limit=self.number(math.inf)),
             lambda: mv.collide(a, b, poses, by_balls=self.one_of(True, False)),
             lambda: mv.penetration(a, b, poses, directions=self.number(8), most_queries=self.number(20), volume_tolerance=1.0),
@@ -230,6 +233,25 @@ class Hostile:
         if self.rng.random() < 0.5:
             roadmap.widest_path(self.array(3), self.array(3))
 
+    def assembly(self):
+        def part():
+            return mv.Part(self.one_of(self.meshes[1], self.meshes[1], None, self.mesh()), link=self.one_of("a", "b", "b", 7),
+                           name=self.one_of("x", None), pose=self.one_of(None, None, self.poses()),
+                           ball=self.one_of(None, None, (self.array(3), self.number(0.1))), volume=self.one_of(None, self.number(9.0)))
+
+        def poses():
+            return np.stack([shapes.pose(self.numbers.normal(size=3)) for _ in range(2)])
+
+        self.one_of(
+            lambda: mv.fit_parts([part() for _ in range(self.rng.randrange(3))], self.number(1, 2), total=self.number(0, 3),
+                                 resolution=8, balls_only=True, progress=self.callback()),
+            lambda: mv.BodyGroup([self.body(), self.body()], self.one_of([0, 1], self.array(2), [5, 2**40]),
+                                 self.one_of(None, [[0, 1]], self.array(2, 2)), poses=self.one_of(None, self.poses())),
+            lambda: self.groups[0].least_distances(self.one_of(poses(), self.array(2, 4, 4)), exact=self.number(False),
+                                                   limit=self.number(math.inf), threads=self.number(1)),
+            lambda: self.groups[0].least_distances(poses(), start=self.groups[0].least_distances(poses())),
+        )()
+
     def function(self):
         """Of points, that answers with points, or not."""
         def fail(_points):
@@ -250,8 +272,8 @@ class Hostile:
         """One call: the name of what it did, and of what it raised."""
         work = self.rng.choices(
             (self.make_mesh, self.queries, self.analyse, self.fit, self.prove, self.union, self.make_body, self.distance,
-             self.follow, self.boundary, self.plane, self.between, self.any_boundary),
-            weights=(20, 20, 12, 6, 15, 15, 10, 30, 10, 10, 20, 15, 15),
+             self.follow, self.boundary, self.plane, self.between, self.any_boundary, self.assembly),
+            weights=(20, 20, 12, 6, 15, 15, 10, 30, 10, 10, 20, 15, 15, 15),
         )[0]
         try:
             work()
