@@ -1,4 +1,4 @@
-// The system and the machine, for `medial-vk doctor`.
+// The system and the machine, for `medial-vk doctor`, and the memory of long runs.
 #pragma once
 
 #include <string>
@@ -19,6 +19,11 @@ inline constexpr bool kIsWindows = false;
 std::string system_name();
 /// "Linux 6.1.0, x86_64".
 std::string kernel_name();
+
+/// From now on the system gets blocks of memory of 1 MiB and more back as soon as they are freed. GNU's malloc() keeps
+/// them otherwise, up to 32 MiB each, once a block of that size has been freed: a process that works on thousands of
+/// meshes then grows by what its free memory is divided into. Elsewhere nothing is done.
+void return_large_blocks();
 
 /// True for a program with more rights than its user, for which the Vulkan loader ignores some variables.
 bool has_more_rights();

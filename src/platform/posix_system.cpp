@@ -2,6 +2,7 @@
 #include <fcntl.h>
 #include <grp.h>
 #include <link.h>
+#include <malloc.h>
 #include <sys/auxv.h>
 #include <sys/stat.h>
 #include <sys/utsname.h>
@@ -103,6 +104,13 @@ std::string kernel_name() {
   utsname names = {};
   if (::uname(&names) != 0) return "unknown kernel";
   return std::string(names.sysname) + " " + names.release + ", " + names.machine;
+}
+
+void return_large_blocks() {
+#if defined(__GLIBC__)
+  constexpr int kLeastBytes = 1 << 20;
+  ::mallopt(M_MMAP_THRESHOLD, kLeastBytes);  // a limit that is set stays, instead of growing with freed blocks
+#endif
 }
 
 bool has_more_rights() { return ::getauxval(AT_SECURE) != 0; }

@@ -778,6 +778,8 @@ std::string kernel_name() {
   return name;
 }
 
+void return_large_blocks() {}
+
 // As the loader does: with a high level of integrity, that of administrators, it ignores variables.
 bool has_more_rights() {
   Handle token;

@@ -38,6 +38,7 @@
 #include "common/tool_errors.h"
 #include "medial_vk/version.h"
 #include "output/atomic_files/atomic_file.h"
+#include "platform/machine.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -362,6 +363,7 @@ Status run_batch(const std::vector<std::string>& arguments) {
   if (options.value().list) return print_list(meshes.value());
   Result<BatchFolder> folder = BatchFolder::open(options.value().output);
   if (!folder) return folder.error();
+  platform::return_large_blocks();
   return BatchRun(options.value(), std::move(meshes).value(), std::move(folder).value()).run();
 }
 
