@@ -28,6 +28,11 @@ def get_requires_for_build_wheel(config_settings: dict[str, str] | None = None) 
     return []
 
 
+def get_requires_for_build_editable(config_settings: dict[str, str] | None = None) -> list[str]:
+    """As for a wheel."""
+    return []
+
+
 def get_requires_for_build_sdist(config_settings: dict[str, str] | None = None) -> list[str]:
     """Git lists the files of a source archive."""
     return []
@@ -41,12 +46,49 @@ def build_wheel(
     with tempfile.TemporaryDirectory() as folder:
         staged = Path(folder) / "staged"
         build = build_folder(Path(folder))
-        run("cmake", "-S", ROOT, "-B", build, "-G", "Ninja", *cmake_options(build))
-        run("cmake", "--build", build, "--target", "medial_vk_python")
+        build_module(build)
         run("cmake", "--install", build, "--component", "python", "--prefix", staged)
         module = next((staged / "medial_vk").glob("_native.*"))
         tag = f"{python_tag()}-{audited_tag(module, [ROOT, build, Path.home()])}"
         return write_wheel(Path(wheel_directory), staged, Metadata.read(ROOT), tag, licences())
+
+
+def build_editable(
+    wheel_directory: str, config_settings: dict[str, str] | None = None, metadata_directory: str | None = None
+) -> str:
+    """Builds the native module in this tree, and a wheel that has no more than the path to the package there (PEP 660). It
+    consists of links to the sources, so that changes of them count at once; after changes of C++, and new files, it is
+    built again."""
+    require_programs()
+    with tempfile.TemporaryDirectory() as folder:
+        build = build_folder(Path(folder))
+        if not build.is_relative_to(ROOT):
+            raise SystemExit(f"medial-vk: {ROOT} cannot be written to: an editable installation has its module there")
+        build_module(build)
+        path = link_package(build)
+        staged = Path(folder) / "staged"
+        staged.mkdir()
+        (staged / "medial_vk_editable.pth").write_text(f"{path}\n", encoding="utf-8")
+        tag = f"{python_tag()}-{sysconfig.get_platform().replace('-', '_').replace('.', '_')}"
+        return write_wheel(Path(wheel_directory), staged, Metadata.read(ROOT), tag, licences())
+
+
+def link_package(build: Path) -> Path:
+    """A folder with a package of links to the sources and to the native module of a build."""
+    path = ROOT / "build" / f"editable-{python_tag()}"
+    shutil.rmtree(path, ignore_errors=True)
+    package = path / "medial_vk"
+    package.mkdir(parents=True)
+    sources = [file for file in (ROOT / "python" / "medial_vk").iterdir() if file.suffix in (".py", ".pyi", ".typed")]
+    for file in [*sources, next((build / "python" / "medial_vk").glob("_native.*.so"))]:
+        (package / file.name).symlink_to(file)
+    return path
+
+
+def build_module(build: Path) -> None:
+    """Compiles what has changed."""
+    run("cmake", "-S", ROOT, "-B", build, "-G", "Ninja", *cmake_options(build))
+    run("cmake", "--build", build, "--target", "medial_vk_python")
 
 
 def build_sdist(sdist_directory: str, config_settings: dict[str, str] | None = None) -> str:

@@ -40,6 +40,14 @@ CURVATURE_STATES = (
 )
 
 
+class ThicknessHistogram(Result):
+    """Shares of points by thickness, in b bins: where both agree, the thickness is known to the width of a bin."""
+
+    edges: NDArray[np.float64]  #: Of the bins, from 0 to the greatest upper end, shape (b + 1,).
+    by_lower_ends: NDArray[np.float64]  #: Of the intervals that hold the thickness, shape (b,).
+    by_upper_ends: NDArray[np.float64]  #: Shape (b,).
+
+
 class Thickness(Result):
     """Thickness at n points, in units of the mesh."""
 
@@ -58,6 +66,31 @@ class Thickness(Result):
     def in_walls(self) -> NDArray[np.bool_]:
         """By point: whether a wall, with opposite sides, limits the ball."""
         return self.kinds == THICKNESS_KINDS.index("wall")  # type: ignore[no-any-return]
+
+    def histogram(self, bins: int = 50) -> ThicknessHistogram:
+        """Shares of the points by thickness, in bins of equal width: of the area, if it was measured at the points of
+        ``Mesh.sample()``.
+
+        Raises:
+            UsageError: Not one bin at least.
+        """
+        import numpy as np
+
+        if bins < 1:
+            from .errors import UsageError
+
+            raise UsageError(f"`bins` is {bins}, not 1 or more")
+        greatest = float(self.upper.max(initial=0.0)) or 1.0
+
+        def shares(ends: NDArray[np.float64]) -> NDArray[np.float64]:
+            of = np.minimum((bins * ends / greatest).astype(np.int64), bins - 1)
+            return np.bincount(of, minlength=bins) / max(len(ends), 1)
+
+        return ThicknessHistogram(
+            edges=greatest * np.arange(bins + 1) / bins,
+            by_lower_ends=shares(self.lower),
+            by_upper_ends=shares(self.upper),
+        )
 
     def plot(self, ax: Any = None) -> Any:
         """Draws the mesh coloured by thickness, if it was measured at its vertices, else the points; returns the

@@ -169,6 +169,10 @@ class Mesh:
         that distance outside, less a bound of the rounding. Shape (n,)."""
         return self._native.depths(points, threads)
 
+    def sample(self, count: int) -> NDArray[np.float64]:
+        """Points of the boundary that stand for equal parts of its area, shape (count, 3): the same ones at every call."""
+        return self._native.sample(count)
+
     def plot(self, ax: Any = None, *, colour: Any = None, alpha: float = 1.0, label: str = "") -> Any:
         """Draws the triangles with matplotlib, shaded; returns the axes.
 

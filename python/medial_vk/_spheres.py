@@ -87,6 +87,19 @@ class SphereFitMetrics(Result):
     volume_ratio: float
 
 
+class SignedDistances(Result):
+    """A histogram of signed distances by area, in bins of equal width, in units of the mesh. Positive: the envelope of the
+    balls is outside the solid there (Figure 8-2 of the source)."""
+
+    lower: float  #: Of the bins.
+    upper: float
+    shares: NDArray[np.float64]  #: Of the area, by bin.
+    least: float
+    greatest: float
+    mean: float
+    mean_absolute: float
+
+
 class SphereMeasures(Result):
     """The quality of a set of balls as an approximation of a solid. With ``balls_only`` it has nothing but the proof of
     the contract."""
@@ -97,6 +110,8 @@ class SphereMeasures(Result):
     volume: VolumeError | None  #: None with ``balls_only``, like the next two.
     distances: EnvelopeDistances | None
     metrics: SphereFitMetrics | None
+    boundary_to_envelope: SignedDistances | None  #: By area of the boundary; estimated from samples.
+    envelope_to_boundary: SignedDistances | None  #: By area of the envelope.
 
 
 class SphereFit(Result):
@@ -234,6 +249,8 @@ def measures_of(values: dict[str, Any]) -> SphereMeasures:
         volume=_made(VolumeError, values["volume"]),
         distances=_made(EnvelopeDistances, values["distances"]),
         metrics=_made(SphereFitMetrics, values["metrics"]),
+        boundary_to_envelope=_made(SignedDistances, values["boundary_to_envelope"]),
+        envelope_to_boundary=_made(SignedDistances, values["envelope_to_boundary"]),
     )
 
 

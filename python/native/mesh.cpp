@@ -7,6 +7,7 @@
 #include "native/calls.h"
 #include "native/handles.h"
 #include "native/options.h"
+#include "sphere_fits/quality/surface_samples.h"
 
 namespace medial_vk::python {
 namespace {
@@ -232,6 +233,14 @@ py::array_t<double> depths(const MeshHandle& handle, py::handle array, unsigned 
   return array_of(value_of(run_unless_short(is_short, call, work)));
 }
 
+py::array_t<double> sample(const MeshHandle& handle, std::size_t count) {
+  constexpr std::size_t kMostSamples = std::size_t{1} << 31;
+  if (count > kMostSamples) fail_usage("`count` is greater than 2^31");
+  return array_of(value_of(run([mesh = handle.mesh, count]() -> Result<std::vector<Point>> {
+    return sample_surface(mesh.prepared().mesh, count);
+  })));
+}
+
 }  // namespace
 
 void bind_mesh(py::module_& module) {
@@ -259,7 +268,8 @@ void bind_mesh(py::module_& module) {
       .def("on_side", &on_side)
       .def("moved", &moved)
       .def("closest_points", &closest_points)
-      .def("depths", &depths);
+      .def("depths", &depths)
+      .def("sample", &sample);
   module.def("make_mesh", &make_mesh);
   module.def("restore_mesh", &restored);
   module.def("read_mesh", &read_file);

@@ -63,6 +63,22 @@ SphereFitOptions read_fit_options(Options& options) {
   return made;
 }
 
+namespace {
+
+py::dict histogram_dict(const SignedDistances& distances) {
+  py::dict out;
+  out["lower"] = distances.lower;
+  out["upper"] = distances.upper;
+  out["shares"] = array_of(std::vector<double>(distances.share));
+  out["least"] = distances.least;
+  out["greatest"] = distances.greatest;
+  out["mean"] = distances.mean;
+  out["mean_absolute"] = distances.mean_absolute;
+  return out;
+}
+
+}  // namespace
+
 py::dict measures_dict(const SphereMeasures& measures, bool balls_only) {
   py::dict volume;
   volume["solid"] = measures.volume.solid;
@@ -98,6 +114,8 @@ py::dict measures_dict(const SphereMeasures& measures, bool balls_only) {
   out["volume"] = balls_only ? none : volume;
   out["distances"] = balls_only ? none : distances;
   out["metrics"] = balls_only ? none : metrics;
+  out["boundary_to_envelope"] = balls_only ? none : histogram_dict(measures.histograms.boundary_to_envelope);
+  out["envelope_to_boundary"] = balls_only ? none : histogram_dict(measures.histograms.envelope_to_boundary);
   return out;
 }
 

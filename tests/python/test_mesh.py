@@ -174,6 +174,17 @@ class Queries(unittest.TestCase):
         self.assertTrue(np.all(depths <= [0.3, -2.0]))
         np.testing.assert_allclose(depths, [0.3, -2.0], atol=1e-12)
 
+    def test_samples_of_the_area(self):
+        mesh = mv.Mesh(*shapes.box((1, 2, 4)))
+        points = mesh.sample(2800)
+        self.assertLess(mesh.closest_points(points).distances.max(), 1e-15)
+        # The sides have areas of 8, 4 and 2, each twice; in a triangle, samples are as many as its share to within one.
+        for axis, (half, area) in enumerate(((0.5, 8), (1, 4), (2, 2))):
+            on_side = np.count_nonzero(np.abs(np.abs(points[:, axis]) - half) < 1e-12)
+            self.assertLessEqual(abs(on_side - 2800 * 2 * area / 28), 4)
+        np.testing.assert_array_equal(points, mesh.sample(2800))
+        self.assertEqual(mesh.sample(0).shape, (0, 3))
+
     def test_moved(self):
         mesh = mv.Mesh(*shapes.box())
         moved = mesh.moved(mesh.vertices + 1)

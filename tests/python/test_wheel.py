@@ -1,5 +1,5 @@
 """The wheel: built without a network, audited, the same bytes twice, installed into a clean environment, used, removed;
-and `pip install` of the source tree.
+and `pip install` of the source tree, editable, too.
 
     test_wheel.py SOURCE_DIR"""
 
@@ -82,6 +82,18 @@ class Wheel(unittest.TestCase):
         self.assertNotIn("medial", check.stdout)  # other packages of the system may lack something
         version = run(self.python, "-c", PROGRAM, env=self.environment, cwd=self.folder).strip()
         self.assertIn(f"-{version}-", self.wheel.name)
+        self.pip("uninstall", "--yes", "medial-vk")
+        left = [path for path in (self.folder / "venv/lib").rglob("*medial*")]
+        self.assertEqual(left, [])
+
+    def test_editable(self):
+        """Sources of the tree are imported; a change of one counts at once, without another installation."""
+        self.pip("install", "--editable", ROOT)
+        where = "import medial_vk; from pathlib import Path; print(Path(medial_vk.__file__).resolve())"
+        file = run(self.python, "-c", where, env=self.environment, cwd=self.folder).strip()
+        self.assertEqual(Path(file), ROOT / "python/medial_vk/__init__.py")
+        program = PROGRAM.replace("assert pathlib.Path(medial_vk.__file__).is_relative_to(sys.prefix), medial_vk.__file__", "")
+        run(self.python, "-c", program, env=self.environment, cwd=self.folder)
         self.pip("uninstall", "--yes", "medial-vk")
         left = [path for path in (self.folder / "venv/lib").rglob("*medial*")]
         self.assertEqual(left, [])
