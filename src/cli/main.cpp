@@ -1,6 +1,9 @@
 #include "cli/run.h"
 #include "platform/processes.h"
+#include "platform/signals.h"
 
 int main(int count, char** arguments) {
-  return medial_vk::cli::run(medial_vk::platform::prepare_process(count, arguments));
+  namespace platform = medial_vk::platform;
+  return platform::run_apart_from_signals(
+      [&] { return medial_vk::cli::run(platform::prepare_process(count, arguments)); });
 }

@@ -22,6 +22,7 @@
 #include <optional>
 #include <random>
 #include <span>
+#include <thread>
 
 #include "platform/files.h"
 #include "platform/libraries.h"
@@ -719,6 +720,12 @@ void limit_use(std::uint64_t memory, std::uint64_t seconds) {
 void on_request_to_stop(void (*handler)()) {
   stop_handler = handler;
   ::SetConsoleCtrlHandler(on_console_event, TRUE);
+}
+
+int run_apart_from_signals(const std::function<int()>& work) {
+  int code = EXIT_FAILURE;
+  std::thread([&] { code = work(); }).join();
+  return code;
 }
 
 void set_alarm(unsigned seconds, const std::string& message) {
