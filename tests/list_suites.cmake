@@ -3,15 +3,20 @@
 # The tests in SLOW are left out of their suites and are tests of their own, labelled `sanitized_full`, too, as are
 # whole suites there (Suite.*).
 #   cmake -D PROGRAM=FILE -D PREFIX=unit. -D LABEL=unit -D TIMEOUT=SECONDS -D SLOW=Suite.Test,Suite.*,... -D OUTPUT=FILE
-#     -P list_suites.cmake
+#     [-D EMULATOR=COMMAND] -P list_suites.cmake
+# EMULATOR: by which programs of another architecture run here.
 cmake_minimum_required(VERSION 3.25)
-execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE list COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${EMULATOR} ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE list COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCHALL "\n[^ \n][^ \n]*[.]" suites "\n${list}")  # other lines are indented or have spaces
 string(REPLACE "," ";" slow "${SLOW}")
 set(text "")
+set(command "")
+foreach(word ${EMULATOR} ${PROGRAM})
+  string(APPEND command "[==[${word}]==] ")
+endforeach()
 # add(NAME FILTER LABELS)
 function(add name filter labels)
-  string(APPEND text "add_test([==[${PREFIX}${name}]==] [==[${PROGRAM}]==] [==[--gtest_filter=${filter}]==])\n"
+  string(APPEND text "add_test([==[${PREFIX}${name}]==] ${command}[==[--gtest_filter=${filter}]==])\n"
     "set_tests_properties([==[${PREFIX}${name}]==] PROPERTIES LABELS [==[${labels}]==] TIMEOUT ${TIMEOUT})\n")
   set(text "${text}" PARENT_SCOPE)
 endfunction()

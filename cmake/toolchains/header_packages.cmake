@@ -3,7 +3,7 @@
 # find_package() finds each by a file in header_packages/, since Debian's own files name /usr/include.
 set(MEDIAL_VK_TARGET_HEADERS ${CMAKE_BINARY_DIR}/target_headers)
 file(MAKE_DIRECTORY ${MEDIAL_VK_TARGET_HEADERS})
-foreach(name CLI eigen3 fmt nanoflann.hpp nlohmann stb vk_video volk.c volk.h vulkan)
+foreach(name boost CLI eigen3 fmt nanoflann.hpp nlohmann stb vk_video volk.c volk.h vulkan)
   if(EXISTS /usr/include/${name} AND NOT EXISTS ${MEDIAL_VK_TARGET_HEADERS}/${name})
     file(CREATE_LINK /usr/include/${name} ${MEDIAL_VK_TARGET_HEADERS}/${name} SYMBOLIC)
   endif()

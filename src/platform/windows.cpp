@@ -481,7 +481,15 @@ Handle limits_job(nullptr);
 
 }  // namespace
 
-std::FILE* open_to_read(const std::string& path) { return ::_wfopen(wide_path(path).c_str(), L"rb"); }
+std::FILE* open_to_read(const std::string& path) {
+  std::FILE* const file = ::_wfopen(wide_path(path).c_str(), L"rb");
+  if (file == nullptr && errno == EACCES) {
+    const DWORD attributes = ::GetFileAttributesW(wide_path(path).c_str());
+    const bool is_folder = attributes != INVALID_FILE_ATTRIBUTES && (attributes & FILE_ATTRIBUTE_DIRECTORY) != 0;
+    errno = is_folder ? EISDIR : EACCES;
+  }
+  return file;
+}
 
 std::uint64_t length_of_regular(std::FILE* file) {
   struct _stat64 status = {};

@@ -332,7 +332,9 @@ TEST(Options, TheMeshIsNotOverwrittenThroughALink) {
   std::ofstream(folder / "a.ply") << "ply\n";
   std::error_code error;
   std::filesystem::remove(folder / "link.ply", error);
-  std::filesystem::create_symlink("a.ply", folder / "link.ply");
+  std::filesystem::create_symlink("a.ply", folder / "link.ply", error);
+  if (error == std::errc::function_not_supported) GTEST_SKIP() << "no symbolic links on this system";
+  ASSERT_FALSE(error) << error.message();
   EXPECT_THAT(message_of({(folder / "a.ply").string(), "-o", (folder / "link.ply").string()}),
               HasSubstr("would overwrite"));
 }

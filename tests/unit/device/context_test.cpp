@@ -38,7 +38,9 @@ class ContextTest : public testing::Test {
  protected:
   void SetUp() override { MEDIAL_VK_SKIP_WITHOUT_DEVICE(); }
 
-  ContextOptions options() const { return {.device = "", .validation = false, .cache_folder = folder_.path()}; }
+  ContextOptions options() const {
+    return {.device = "", .validation = false, .cache_folder = folder_.path().string()};
+  }
 
   /// Opens a context, creates a program, closes it; returns the cache file, empty if there is none.
   fs::path use_cache(const ContextOptions& options) {
@@ -244,7 +246,7 @@ TEST_F(ContextTest, DamagedPipelineCacheIsReplaced) {
 TEST_F(ContextTest, PipelineCacheOfAnotherDriverIsIgnored) {
   PipelineCacheIdentity ours{.vendor = 1, .device = 2};
   VkPipelineCacheHeaderVersionOne header{sizeof(header), VK_PIPELINE_CACHE_HEADER_VERSION_ONE, 1, 2, {}};
-  const std::string file = folder_.path() / "pipelines.bin";
+  const std::string file = (folder_.path() / "pipelines.bin").string();
   ASSERT_TRUE(write_pipeline_cache(file, std::as_bytes(std::span(&header, 1))));
   EXPECT_EQ(read_pipeline_cache(file, ours).size(), sizeof(header));
   PipelineCacheIdentity updated = ours;
@@ -258,7 +260,7 @@ TEST_F(ContextTest, WorksWithoutAFolderForTheCache) {
   const fs::path blocker = folder_.path() / "file.bin";
   overwrite(blocker, "not a folder");
   ContextOptions blocked = options();
-  blocked.cache_folder = blocker / "cache";
+  blocked.cache_folder = (blocker / "cache").string();
   use_cache(blocked);
   EXPECT_EQ(contents(blocker), "not a folder");
 }

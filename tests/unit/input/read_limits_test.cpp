@@ -112,14 +112,7 @@ TEST(ReadLimits, ListsOfAnyLengthThatTheFileDoesNotHold) {
   EXPECT_TRUE(parse_mesh(nothing, "a.ply").ok());
 }
 
-// ---- Streams without an end, and files that are too long for any mesh
-
-TEST(ReadLimits, AStreamWithoutAnEnd) {
-  const Result<Mesh> mesh = read_mesh("/dev/zero", 3u << 20);
-  ASSERT_FALSE(mesh.ok());
-  EXPECT_EQ(mesh.error().code, ErrorCode::kInvalidMesh);
-  EXPECT_EQ(mesh.error().message, "/dev/zero: longer than 3 MiB, the most that is read");
-}
+// ---- Files that are too long for any mesh
 
 TEST(ReadLimits, FilesUpToTheLimitAreRead) {
   const std::string path = testing::TempDir() + "medial_vk_limit.obj";

@@ -1,12 +1,12 @@
 // Patterns of file names.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 
 #include "motion_files/frame_patterns.h"
+#include "support/device/device.h"
 
 namespace medial_vk {
 namespace {
@@ -17,17 +17,12 @@ using testing::HasSubstr;
 
 class FramePatterns : public testing::Test {
  protected:
-  FramePatterns() : folder_(fs::temp_directory_path() / ("medial-vk-patterns-" + std::to_string(::getpid()))) {
-    fs::create_directories(folder_);
-  }
-  ~FramePatterns() override { fs::remove_all(folder_); }
-
   void make(const std::vector<std::string>& names) const {
     for (const std::string& name : names) std::ofstream(folder_ / name) << "x";
   }
 
   Result<std::vector<std::string>> files(const std::string& pattern) const {
-    return files_of_pattern((folder_ / pattern).string());
+    return files_of_pattern((folder_ / pattern).generic_string());
   }
 
   /// The names of the files, without their folder.
@@ -51,7 +46,8 @@ class FramePatterns : public testing::Test {
     return found.error().message;
   }
 
-  fs::path folder_;
+  const test::TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path().generic_string();
 };
 
 TEST_F(FramePatterns, NumbersWithLeadingZeros) {
@@ -70,9 +66,9 @@ TEST_F(FramePatterns, NumbersWithoutLeadingZerosAndLongerOnes) {
 
 TEST_F(FramePatterns, TheFirstMissingFileIsNamed) {
   make({"w_03.obj", "w_04.obj", "w_06.obj", "w_08.obj"});
-  EXPECT_THAT(
-      message("w_%02d.obj", ErrorCode::kInvalidMesh),
-      testing::StartsWith((folder_ / "w_05.obj").string() + ": is missing, between the first and the last file of"));
+  EXPECT_THAT(message("w_%02d.obj", ErrorCode::kInvalidMesh),
+              testing::StartsWith((folder_ / "w_05.obj").generic_string() +
+                                  ": is missing, between the first and the last file of"));
   EXPECT_THAT(names("w_*.obj"), ElementsAre("w_03.obj", "w_04.obj", "w_06.obj", "w_08.obj"));
 }
 
@@ -108,8 +104,8 @@ TEST_F(FramePatterns, OthersAreRefused) {
 
 TEST_F(FramePatterns, AFileOfJustThisNameIsNoPattern) {
   make({"a#1.obj"});
-  EXPECT_FALSE(is_frame_pattern((folder_ / "a#1.obj").string()));
-  EXPECT_TRUE(is_frame_pattern((folder_ / "a#2.obj").string()));
+  EXPECT_FALSE(is_frame_pattern((folder_ / "a#1.obj").generic_string()));
+  EXPECT_TRUE(is_frame_pattern((folder_ / "a#2.obj").generic_string()));
   EXPECT_TRUE(is_frame_pattern("walk_%04d.obj"));
   EXPECT_TRUE(is_frame_pattern("a/walk_*.obj"));
   EXPECT_TRUE(is_frame_pattern("a/walk_[1-3].obj"));

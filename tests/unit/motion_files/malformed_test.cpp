@@ -1,13 +1,13 @@
 // Files that are no animation, are broken, or use what is not supported: an error each, and no other frames.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <functional>
 
 #include "motion_files/mesh_motion.h"
+#include "support/device/device.h"
 #include "unit/motion_files/animations.h"
 
 namespace medial_vk {
@@ -248,14 +248,14 @@ TEST(AnimationErrors, DeepJsonIsNotKeptForACopy) {
 }
 
 TEST(AnimationErrors, BuffersBesideTheFileAreReadFromItsFolderOnly) {
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("medial-vk-motion-" + std::to_string(::getpid()));
+  const test::TemporaryFolder temporary;
+  const std::filesystem::path& folder = temporary.path();
   std::filesystem::create_directories(folder / "in");
   AnimationWriter writer = skinned_animation();
   const auto write = [&](const std::string& uri) {
     writer.document["buffers"] = {{{"byteLength", writer.buffer.size()}, {"uri", uri}}};
     std::ofstream(folder / "in/a.gltf") << writer.document.dump();
-    return open_animation((folder / "in/a.gltf").string());
+    return open_animation((folder / "in/a.gltf").generic_string());
   };
   std::ofstream(folder / "in/my buffer.bin", std::ios::binary) << writer.buffer;
   std::ofstream(folder / "b.bin", std::ios::binary) << writer.buffer;
@@ -266,7 +266,6 @@ TEST(AnimationErrors, BuffersBesideTheFileAreReadFromItsFolderOnly) {
     ASSERT_FALSE(motion.ok());
     EXPECT_THAT(motion.error().message, HasSubstr(std::string("a.gltf: it names the file ") + words));
   }
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -1,13 +1,13 @@
 // Frames from mesh files: the same faces as at rest, however polygons are cut.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 
 #include "motion_files/mesh_motion.h"
 #include "motion_files/same_triangles.h"
+#include "support/device/device.h"
 #include "support/scenes/gltf_writer.h"
 #include "support/scenes/scene_files.h"
 #include "support/solids/mesh_files.h"
@@ -26,18 +26,14 @@ Mesh tetrahedron(double height = 1) {
 
 class FramesOnDisk : public testing::Test {
  protected:
-  FramesOnDisk() : folder_(fs::temp_directory_path() / ("medial-vk-frames-" + std::to_string(::getpid()))) {
-    fs::create_directories(folder_);
-  }
-  ~FramesOnDisk() override { fs::remove_all(folder_); }
-
   std::string write(const std::string& name, const std::string& bytes) const {
-    const std::string path = (folder_ / name).string();
-    std::ofstream(path, std::ios::binary) << bytes;
-    return path;
+    std::ofstream(temporary_.path() / name, std::ios::binary) << bytes;
+    return in_folder(name);
   }
 
-  fs::path folder_;
+  std::string in_folder(const std::string& name) const { return (temporary_.path() / name).generic_string(); }
+
+  const TemporaryFolder temporary_;
 };
 
 std::unique_ptr<MeshMotion> motion_of_files(const std::string& rest, const std::vector<std::string>& frames) {
@@ -76,7 +72,7 @@ TEST_F(FramesOnDisk, OfOtherFacesAreErrorsThatNameFileAndDifference) {
              write("turned.obj", to_obj(turned)), write("broken.obj", "v 1 2\n")});
   ASSERT_TRUE(motion);
   MotionFrame frame;
-  const std::string in = folder_.string() + "/";
+  const std::string in = in_folder("");
   const auto message = [&](std::uint64_t index) {
     const Status status = motion->read_frame(index, frame);
     EXPECT_FALSE(status.ok());
@@ -96,10 +92,10 @@ TEST_F(FramesOnDisk, MustBeThereBeforeTheFirstIsRead) {
   const Result<std::unique_ptr<MeshMotion>> none = open_mesh_files(rest, {});
   ASSERT_FALSE(none.ok());
   EXPECT_EQ(none.error().code, ErrorCode::kUsage);
-  const Result<std::unique_ptr<MeshMotion>> missing = open_mesh_files(rest, {rest, folder_ / "b.obj", folder_ / "c"});
+  const Result<std::unique_ptr<MeshMotion>> missing = open_mesh_files(rest, {rest, in_folder("b.obj"), in_folder("c")});
   ASSERT_FALSE(missing.ok());
   EXPECT_EQ(missing.error().code, ErrorCode::kInvalidMesh);
-  EXPECT_EQ(missing.error().message, (folder_ / "b.obj").string() + ": there is no such file");
+  EXPECT_EQ(missing.error().message, in_folder("b.obj") + ": there is no such file");
   EXPECT_FALSE(open_mesh_files("-", {"-"}).ok());
 }
 
@@ -119,7 +115,7 @@ TEST_F(FramesOnDisk, PolygonsThatAreCutOtherwiseAreTheSameFaces) {
   const std::string rest = write("rest.obj", sheared(.5, 0));
   const auto motion = motion_of_files(rest, {write("a.obj", sheared(-.5, 0)), write("b.obj", sheared(0, .3))});
   ASSERT_TRUE(motion);
-  const auto other = motion_of_files((folder_ / "a.obj").string(), {rest});
+  const auto other = motion_of_files(in_folder("a.obj"), {rest});
   ASSERT_TRUE(other);
   ASSERT_NE(other->rest().triangles, motion->rest().triangles) << "the test needs polygons that are cut otherwise";
   MotionFrame frame;

@@ -203,8 +203,6 @@ TEST(RingTable, MistakesAreNamed) {
 
 TEST(ShapeFiles, FormatsByExtensionOrContent) {
   const auto format = [](const std::string& text, const std::string& name) { return shape_of(text, name).format; };
-  EXPECT_EQ(format("<svg><circle r='1'/></svg>", "a"), ShapeFormat::kSvg);
-  EXPECT_EQ(format("\n <?xml version='1.0'?><svg><circle r='1'/></svg>", "a.txt"), ShapeFormat::kSvg);
   EXPECT_EQ(format(geojson("LineString", kOuter), "a.txt"), ShapeFormat::kGeoJson);
   EXPECT_EQ(format(geojson("LineString", kOuter), "a.JSON"), ShapeFormat::kGeoJson);
   EXPECT_EQ(format("srid=3;POLYGON((0 0,1 0,1 1))", "a"), ShapeFormat::kWkt);

@@ -254,6 +254,11 @@ TEST(SvgDocuments, OfManyPrograms) {
   EXPECT_EQ(area_of(shape_of_svg("<a>" + rect + "</a><clipPath><rect width='9' height='9'/></clipPath>")), 2);
 }
 
+TEST(SvgDocuments, AreKnownByTheirContent) {
+  EXPECT_EQ(shape_of("<svg><circle r='1'/></svg>", "a").format, ShapeFormat::kSvg);
+  EXPECT_EQ(shape_of("\n <?xml version='1.0'?><svg><circle r='1'/></svg>", "a.txt").format, ShapeFormat::kSvg);
+}
+
 TEST(SvgDocuments, OthersAreRefused) {
   EXPECT_EQ(fault_of("<html/>", "s.svg"), "s.svg: this is no SVG: its outermost element is not <svg>");
   EXPECT_THAT(fault_of("<svg>\n<g></svg>", "s.svg"), HasSubstr("s.svg:2: this is no well-formed XML"));
