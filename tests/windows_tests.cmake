@@ -8,8 +8,8 @@ endforeach()
 
 # Calls of POSIX in the tests themselves; tests/cli, faults, picture, ... start processes by them, and scripts/test-windows
 # takes their place.
-set(posix cli/doctor_child_process cli/doctor_machine cli/doctor_advice cli/progress_terminal input/read_devices
-    output/doctor_report output/output_atomic_file)
+set(posix cli/doctor_child_process cli/doctor_machine cli/doctor_advice cli/doctor_driver_search cli/progress_terminal
+    input/read_devices output/doctor_report output/output_atomic_file)
 # Parts that a build without libzip, tinyxml2 and assimp lacks.
 set(absent ball_files/.* body_files/.* robots/.* rigs/.* scene_files/.* shape_files/.*svg.* output/.*npz.* output/.*urdf.*)
 # SPIRV-Tools are not there for the target; trees of measurements.

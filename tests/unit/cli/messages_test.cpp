@@ -182,7 +182,7 @@ TEST(Messages, WordsNameOptionsOfTheirCommand) {
 // The library knows neither the options of the tool nor its files.
 TEST(Messages, TheLibraryDoesNotSpeakOfTheTool) {
   for (const std::string& literal : library_literals()) {
-    EXPECT_THAT(literal, testing::Not(testing::ContainsRegex("(^|[^-])--[a-z]")));
+    EXPECT_THAT(matches(literal, "(?:^|[^-])(--[a-z])"), testing::IsEmpty()) << literal;
     EXPECT_THAT(literal, testing::Not(testing::HasSubstr("was written")));
   }
 }

@@ -265,24 +265,6 @@ TEST_F(ContextTest, WorksWithoutAFolderForTheCache) {
   EXPECT_EQ(contents(blocker), "not a folder");
 }
 
-TEST(PipelineCacheFolder, FollowsTheXdgRules) {
-  EXPECT_EQ(pipeline_cache_folder("/given"), "/given");
-  const test::ScopedEnvironment home("HOME", "/home/someone");
-  {
-    const test::ScopedEnvironment xdg("XDG_CACHE_HOME", "/elsewhere");
-    EXPECT_EQ(pipeline_cache_folder(""), "/elsewhere/medial-vk");
-    EXPECT_EQ(Context::default_cache_folder(), "/elsewhere/medial-vk");
-  }
-  {
-    const test::ScopedEnvironment xdg("XDG_CACHE_HOME", "relative/is/ignored");
-    EXPECT_EQ(pipeline_cache_folder(""), "/home/someone/.cache/medial-vk");
-  }
-  const test::ScopedEnvironment xdg("XDG_CACHE_HOME", nullptr);
-  const test::ScopedEnvironment no_home("HOME", nullptr);
-  EXPECT_EQ(pipeline_cache_folder(""), "");
-  EXPECT_EQ(pipeline_cache_file("", {}), "");
-}
-
 // From 0 to all, one by one; programs that exist are not counted again.
 TEST_F(ContextTest, ReportsTheProgramsThatItMakes) {
   std::vector<std::pair<std::size_t, std::size_t>> reports;
