@@ -74,8 +74,10 @@ void read_manifest(DriverRecord& driver) {
   driver.is_broken = true;  // until it has been read
   std::error_code error;
   std::ifstream file(platform::path_of(driver.file), std::ios::binary);
-  if (!file || fs::is_directory(platform::path_of(driver.file), error)) {
-    driver.problem = fmt::format("the file cannot be read: {}", std::strerror(file ? EISDIR : errno));
+  const int reason = errno;
+  const bool is_folder = fs::is_directory(platform::path_of(driver.file), error);
+  if (!file || is_folder) {
+    driver.problem = fmt::format("the file cannot be read: {}", std::strerror(is_folder ? EISDIR : reason));
     return;
   }
   std::string bytes(kMostBytes + 1, '\0');
