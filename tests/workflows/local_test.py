@@ -10,7 +10,7 @@ import sys
 import tempfile
 
 from meshes import torus, write_meshes
-from workflow_runs import WorkflowFolder, check
+from workflow_runs import TABLE, WorkflowFolder, check
 
 
 def main():
@@ -45,6 +45,20 @@ def main():
         check(len(after) == 4 and len(changed) <= 3, f"chunks that ran: {sorted(changed)}")
         for name, number in kept.items():
             check(os.stat(work.results / f"{name}.medial.ply").st_ino == number, f"{name} was done again")
+
+        # Files are lost: in the folder of a chunk, while another mesh comes, and among the results, with their table.
+        lost = f"{names[1]}.medial.ply"
+        for path in (work.state / "chunks").rglob(lost):
+            path.unlink()
+        (work.meshes / "newest.obj").write_text(torus(80))
+        code, text = work.run(chunk=4, threads=1)
+        check(code == 0, text)
+        work.check_results(failures)
+        (work.results / lost).unlink()
+        (work.results / TABLE).unlink()
+        code, text = work.run(chunk=4, threads=1)
+        check(code == 0, text)
+        work.check_results(failures)
 
 
 main()

@@ -13,6 +13,7 @@ import unittest
 from meshes import torus
 from workflow_runs import SOURCE, WorkflowFolder
 
+import batch_process
 import files
 import plan
 import table
@@ -75,21 +76,78 @@ class PlanOfFiles(Folder):
             self.assertFalse(set(others.values()) & set(beside.values()), settings)
         self.assertEqual(self.keys()[1], beside)
 
+    TABLE = b"name,state,error,files\na.obj,done,,.medial.ply .report.json\nb.obj,failed,none,\n"
 
-    def test_a_record_without_its_run_is_none(self):
+    def write_results(self, folder):
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / "batch.csv").write_bytes(self.TABLE)
+        for name in ("a.obj.medial.ply", "a.obj.report.json"):
+            (folder / name).touch()
+
+    def check_losses(self, record, text, folder, names):
+        """`record` is kept until one of these files is gone."""
+        for name in names:
+            with self.subTest(name):
+                self.write_results(folder)
+                record.write_text(text)
+                key = self.keys(chunk=2)[0]
+                self.assertTrue(record.exists())
+                (folder / name).unlink()
+                self.assertEqual(self.keys(chunk=2)[0], key)
+                self.assertFalse(record.exists())
+
+    def test_a_record_without_its_results_is_none(self):
+        (self.folder / "in").mkdir()
+        for name in "ab":
+            (self.folder / f"in/{name}.obj").write_text(torus(1))
+        _, chunks = self.keys(chunk=2)
+        chunk = self.folder / "out/.workflow/chunks/000000"
+        record, run = chunk / f"done-{chunks['000000']}.json", chunk / "runs/one"
+        self.check_losses(record, '{"run": "one"}', run, ("batch.csv", "a.obj.medial.ply", "a.obj.report.json"))
+        self.write_results(run)
+        (run / "batch.csv").write_bytes(self.TABLE[:self.TABLE.index(b"b.obj")])
+        record.write_text('{"run": "one"}')
+        self.keys(chunk=2)
+        self.assertFalse(record.exists())
+
+    def test_a_merge_without_its_results_is_none(self):
+        (self.folder / "in").mkdir()
+        for name in "ab":
+            (self.folder / f"in/{name}.obj").write_text(torus(1))
+        key, _ = self.keys(chunk=2)
+        record, output = self.folder / f"out/.workflow/merged-{key}.json", self.folder / "out"
+        (output / "failures.csv").touch()
+        text = '{"meshes": 2, "beside": ["failures.csv"]}'
+        self.check_losses(record, text, output, ("batch.csv", "a.obj.medial.ply", "a.obj.report.json", "failures.csv"))
+
+    def test_settings_that_cannot_work_are_refused_by_name(self):
         (self.folder / "in").mkdir()
         (self.folder / "in/a.obj").write_text(torus(1))
-        key, chunks = self.keys()
-        chunk = self.folder / "out/.workflow/chunks/000000"
-        record = chunk / f"done-{chunks['000000']}.json"
-        (chunk / "runs/one").mkdir(parents=True)
-        (chunk / "runs/one/batch.csv").touch()
-        record.write_text('{"run": "one"}')
-        self.keys()
-        self.assertTrue(record.exists())
-        (chunk / "runs/one/batch.csv").unlink()
-        self.assertEqual(self.keys()[0], key)
-        self.assertFalse(record.exists())
+        for option in ("-o x", "-ox", "--output=x", "--threads 3", "--list", "--merge", "-q", "-v", "-qv", "--verbose", "--quiet",
+                       "-h", "--help"):
+            with self.subTest(option), self.assertRaises(SystemExit) as end:
+                self.keys(options=f"--resolution 8 {option}")
+            self.assertIn(option.split()[0], str(end.exception))
+        for settings in ({"output": self.folder / "r{4}"}, {"output": "-r3"}, {"meshes": "-"}):
+            with self.subTest(settings), self.assertRaises(SystemExit) as end:
+                self.keys(**settings)
+            self.assertIn(next(iter(settings)), str(end.exception))
+        self.keys(options="--picture .png --view -0.9,-0.6,1.1")  # a value may begin with the same sign
+
+    def test_jobs_find_a_program_by_a_relative_path(self):
+        (self.folder / "in").mkdir()
+        (self.folder / "in/a.obj").write_text(torus(1))
+        (self.folder / "bin").mkdir()
+        (self.folder / "bin/medial-vk").symlink_to(os.path.abspath(MEDIAL_VK))
+        here = os.getcwd()
+        self.addCleanup(os.chdir, here)
+        os.chdir(self.folder)
+        key, chunks = self.keys(medial_vk="bin/medial-vk", options="--resolution 6 --backend cpu")
+        subprocess.run([sys.executable, SOURCE / "workflows/scripts/run_chunk.py", "out/.workflow/chunks/000000",
+                        chunks["000000"], "--attempt", "1", "--last-attempt", "1", "--threads", "1", "--memory", "2000",
+                        "--minutes", "1"], check=True, capture_output=True)
+        subprocess.run([sys.executable, SOURCE / "workflows/scripts/merge.py", "out", key], check=True, capture_output=True)
+        self.assertEqual({row.state for row in table.Table(self.folder / "out").rows.values()}, {"done"})
 
 
 class TableOfBatch(Folder):
@@ -211,6 +269,48 @@ class Chunk(Folder):
         self.assertEqual({name: row.state for name, row in self.rows().items()},
                          {"a.obj": "done", "b.obj": "done", "kills-time.obj": "failed", "z.obj": "done"})
 
+    def merge(self):
+        return subprocess.run([sys.executable, SOURCE / "workflows/scripts/merge.py", self.work.results, self.key],
+                              capture_output=True, text=True, check=False)
+
+    def test_a_merge_keeps_what_a_chunk_has_lost(self):
+        self.plan(["a.obj", "b.obj"])
+        self.assertEqual(self.run_once()[0], 0)
+        self.assertEqual(self.merge().returncode, 0)
+        merged, table_before = self.work.results / "b.obj.medial.ply", (self.work.results / "batch.csv").read_bytes()
+        before = merged.read_bytes()
+        (self.chunk / "runs" / self.record()["run"] / "b.obj.medial.ply").unlink()
+        result = self.merge()
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("b.obj.medial.ply", result.stderr)
+        self.assertEqual((merged.read_bytes(), (self.work.results / "batch.csv").read_bytes()), (before, table_before))
+        self.assertFalse((self.chunk / f"done-{self.chunk_key}.json").exists())
+        # The next job takes over what is there.
+        (earlier,) = (self.chunk / "runs").iterdir()
+        self.assertEqual(self.run_once()[0], 0)
+        run = self.chunk / "runs" / self.record()["run"]
+        self.assertTrue(os.path.samefile(run / "a.obj.medial.ply", earlier / "a.obj.medial.ply"))
+        self.assertEqual((run / "b.obj.medial.ply").read_bytes(), before)
+
+    def test_a_run_that_lacks_a_file_hides_no_other(self):
+        self.plan(["a.obj"], "--resolution 6 --backend cpu --report .json")
+        names = []
+        for _ in range(2):
+            self.assertEqual(self.run_once()[0], 0)
+            names.append(self.record()["run"])
+        (self.chunk / "runs" / max(names) / "a.obj.report.json").unlink()
+        code, text = self.run_once()
+        self.assertEqual(code, 0, text)
+        run = self.chunk / "runs" / self.record()["run"]
+        self.assertTrue(os.path.samefile(run / "a.obj.report.json", self.chunk / "runs" / min(names) / "a.obj.report.json"))
+
+    def test_after_a_stop_no_process_begins(self):
+        process = batch_process.BatchProcess(100, time.monotonic() + 60, 1)
+        process.stop()
+        end = process.run(["touch", self.folder / "begun"], self.folder, b"", self.folder / "log")
+        self.assertEqual((end.code, end.cause), (None, "stopped"))
+        self.assertFalse((self.folder / "begun").exists())
+
     # A job that no run sees the end of: its limit is that of the system, which kills all of it.
     def test_a_mesh_that_ends_its_jobs_fails_after_some(self):
         self.plan(["a.obj", "kills-time.obj"])
@@ -319,6 +419,28 @@ class Slurm(Folder):
         (self.folder / "calls").unlink()
         self.program("squeue", 'echo "$@" >> calls; echo "11|RUNNING|None"')
         self.assertEqual(self.call("status", "11"), "running")
+
+    def test_an_answer_with_a_time_to_come_is_old(self):
+        self.queue("7|RUNNING|None")
+        self.assertEqual(self.call("status", "7"), "running")
+        to_come = time.time() + 3600
+        os.utime(self.folder / ".snakemake/slurm/queue", (to_come, to_come))
+        self.program("squeue", 'echo "7|COMPLETED|None"')
+        self.assertEqual(self.call("status", "7"), "success")
+
+    def test_a_folder_with_signs_of_slurm(self):
+        self.folder = self.folder / "a, 50%x"
+        (self.folder / "bin").mkdir(parents=True)
+        job = {"rule": "chunk", "output": ["results/done.json"], "resources": {}}
+        (self.folder / "job.sh").write_text(f"#!/bin/sh\n# properties = {json.dumps(job)}\n")
+        self.program("squeue", "exit 0")
+        self.program("sbatch", 'printf "%s\\n" "$MEDIAL_VK_ENDS" "$@" > calls; echo 12')
+        self.assertEqual(self.call("submit", "job.sh"), "12")
+        lines = (self.folder / "calls").read_text().splitlines()
+        ends = str(self.folder / ".snakemake/slurm")
+        self.assertEqual(lines[0], ends)
+        self.assertIn("--export=ALL", lines)
+        self.assertIn(f"--output={ends.replace('%', '%%')}/%x-%j.log", lines)
 
     def test_a_job_on_hold_after_a_failed_start_is_released(self):
         self.queue("7|PENDING|launch failed requeued held")

@@ -34,7 +34,8 @@ def resident_megabytes(process):
 
 
 class End:
-    """How a run ended: `code` of the process, negative for a signal, and what ended it from here, if anything did."""
+    """How a run ended: `code` of the process, negative for a signal, None if it has not begun, and what ended it from
+    here, if anything did."""
 
     def __init__(self, code, cause):
         self.code, self.cause = code, cause
@@ -66,6 +67,8 @@ class BatchProcess:
     def run(self, command, folder, names, log):
         """`names` are the lines of its standard input."""
         with open(log, "ab") as messages:
+            if self.stopped:
+                return End(None, "stopped")
             self._process = subprocess.Popen(command, cwd=folder, stdin=subprocess.PIPE, stdout=messages,
                                              stderr=messages, preexec_fn=end_with_parent,
                                              env=self._environment)
@@ -85,7 +88,9 @@ class BatchProcess:
             elif resident_megabytes(self._process.pid) > self._megabytes:
                 cause = "memory"
                 self._process.kill()
-            time.sleep(SECONDS_BETWEEN_LOOKS if cause is None else 0)
+                self._process.wait()
+            else:
+                time.sleep(SECONDS_BETWEEN_LOOKS)
         return End(self._process.returncode, cause)
 
     def _end(self):

@@ -15,17 +15,39 @@ import sys
 import urllib.parse
 
 from files import bytes_of, read_json, text_of, write_json
+from table import Table, name_of_line
 
 FORMAT = 1
+SETTINGS = ("-o", "--output", "--threads")
+OF_THE_WORKFLOW = ("--list", "--merge", "-q", "--quiet", "-v", "--verbose", "-h", "--help")
 
 
 def options_of(config):
     options = config["options"]
     options = shlex.split(options) if isinstance(options, str) else [str(option) for option in options]
-    for name in ("-o", "--output", "--threads"):
-        if any(option == name or option.startswith(f"{name}=") for option in options):
-            sys.exit(f"options: {name} is a setting of the workflow, not an option")
+    for option in options:
+        name = option.split("=")[0]
+        short = name[:2] if name[:1] == "-" and name[:2] != "--" else None  # a value may stand behind it: -oDIR
+        if name in SETTINGS or short in SETTINGS:
+            sys.exit(f"options: {option}: the folder of results and the threads are settings of the workflow, no options")
+        if name in OF_THE_WORKFLOW or short in OF_THE_WORKFLOW:
+            sys.exit(f"options: {option}: the workflow itself calls medial-vk batch with or without this option")
     return options
+
+
+def check_folders(config):
+    """Of what Snakemake, or a command line, would take for something else."""
+    for name in ("meshes", "output"):
+        if str(config[name]).startswith("-"):
+            sys.exit(f"{name}: {config[name]} begins like an option: write ./{config[name]}")
+    if any(sign in str(config["output"]) for sign in "{}"):
+        sys.exit(f"output: {config['output']} has braces, between which Snakemake expects a wildcard: name another folder")
+
+
+def program_of(config):
+    """A path is made absolute, since jobs work in other folders."""
+    program = str(config["medial_vk"])
+    return os.path.abspath(program) if "/" in program else program
 
 
 def run_tool(arguments):
@@ -38,7 +60,7 @@ def run_tool(arguments):
 def find_meshes(config, options):
     """As lists name them, from the folder that paths begin with."""
     meshes = str(config["meshes"])
-    lines = run_tool([str(config["medial_vk"]), "batch", "--list", meshes, "-o", str(config["output"]), *options])
+    lines = run_tool([program_of(config), "batch", "--list", meshes, "-o", str(config["output"]), *options])
     base = pathlib.Path(meshes) if pathlib.Path(meshes).is_dir() else pathlib.Path(meshes).parent
     return os.path.realpath(base), [line for line in lines.split("\n") if line]
 
@@ -93,20 +115,41 @@ def assign(earlier, states, most, most_bytes):
     return {number: names for number, names in chunks.items() if names}
 
 
-def forget_lost_results(folder, key):
-    """A record whose run is gone is none: its chunk runs again."""
+def lost_result(run, names):
+    """What the folder of a run lacks of its results: the line of a mesh, or a file; None if all are there."""
+    table = Table(run)
+    without_line = next((name for name in names if name not in table.rows), None)
+    return f"the line of {without_line!r}" if without_line is not None else table.missing_file(run)
+
+
+def forget_lost_results(folder, key, names):
+    """A record whose run is gone, or lacks a file, is none: its chunk runs again."""
     file = folder / f"done-{key}.json"
     record = read_json(file)
-    if record is not None and not (folder / "runs" / record["run"] / "batch.csv").exists():
+    if record is not None and lost_result(folder / "runs" / record["run"], map(name_of_line, names)) is not None:
         file.unlink(missing_ok=True)
+
+
+def forget_lost_merge(output, key):
+    """Neither is a merge done whose table, or one of whose files, is gone."""
+    record = output / ".workflow" / f"merged-{key}.json"
+    merged = read_json(record)
+    if merged is None:
+        return
+    table = Table(output)
+    is_whole = (len(table.rows) == merged["meshes"] and all(row.is_settled() for row in table.rows.values()) and
+                table.missing_file(output) is None)
+    if not is_whole or not all((output / name).exists() for name in merged["beside"]):
+        record.unlink(missing_ok=True)
 
 
 def make_plan(config):
     """Writes the plan and returns its key."""
+    check_folders(config)
     options, output = options_of(config), pathlib.Path(str(config["output"]))
     if int(config["chunk"]) < 1 or float(config["chunk_megabytes"]) <= 0:
         sys.exit("chunk and chunk_megabytes: at least one mesh must fit into a chunk")
-    program = str(config["medial_vk"])
+    program = program_of(config)
     version = run_tool([program, "--version"]).strip()
     base, meshes = find_meshes(config, options)
     states = {name: state_of_mesh(base, name) for name in meshes}
@@ -124,10 +167,11 @@ def make_plan(config):
             keys[number] = digest_of([requested, [states[name] for name in names], str(config.get("verify", ""))])
             folder = state / "chunks" / number
             folder.mkdir(parents=True, exist_ok=True)
-            forget_lost_results(folder, keys[number])
+            forget_lost_results(folder, keys[number], names)
             if not (folder / f"plan-{keys[number]}.json").exists():
                 write_json(folder / f"plan-{keys[number]}.json", requested)
         key = digest_of(keys)
+        forget_lost_merge(output, key)
         if not (state / f"plan-{key}.json").exists():
             write_json(state / f"plan-{key}.json",
                        {"format": FORMAT, "program": program, "options": options, "chunks": keys})

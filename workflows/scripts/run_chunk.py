@@ -105,10 +105,14 @@ class ChunkRun:
             write_table(self.run, header, lines.values())
 
     def take_files(self, row, folder):
+        taken = []
         try:
             for file in row.files():
                 link_or_copy(folder / file, self.run / file)
+                taken.append(self.run / file)
         except FileNotFoundError:  # removed by a merge, or by the run that made it
+            for file in taken:  # another run may have all of them
+                file.unlink()
             return False
         return True
 
@@ -139,7 +143,7 @@ class ChunkRun:
         return self.process.run([bytes_of(word) for word in command], self.plan["base"], lines, self.run / "log")
 
     def settled(self):
-        return {name for name, row in Table(self.run).rows.items() if row.state in ("done", "failed")}
+        return {name for name, row in Table(self.run).rows.items() if row.is_settled()}
 
     def failed_before(self):
         """Of this key: they are not tried again."""

@@ -1,4 +1,5 @@
 """The table of `medial-vk batch` (docs/formats.md): lines as bytes, and the few columns that the workflow reads."""
+import os
 import pathlib
 
 from files import text_of, write_whole
@@ -10,6 +11,8 @@ AT_WORK = ("started", "reading")
 
 def split_line(line):
     """The cells of a line: quotes hold commas, and quotes twice."""
+    if b'"' not in line:
+        return line.split(b",")
     cells, cell, quoted, i = [], bytearray(), False, 0
     while i < len(line):
         byte = line[i:i + 1]
@@ -41,12 +44,15 @@ def name_of_line(line):
 class Row:
     """A line of the table."""
 
-    def __init__(self, columns, line):
+    def __init__(self, columns, line, cells):
         self.line = line
-        self.cells = dict(zip(columns, split_line(line)))
+        self.cells = dict(zip(columns, cells))
         self.name = text_of(self.cells["name"])
         self.state = text_of(self.cells["state"])
         self.error = text_of(self.cells["error"])
+
+    def is_settled(self):
+        return self.state in ("done", "failed")
 
     def files(self):
         """The names of its files in the folder of the table."""
@@ -69,11 +75,17 @@ class Table:
         self.header = lines[0]
         columns = [text_of(cell) for cell in split_line(self.header)]
         for line in lines[1:]:
-            if len(split_line(line)) != len(columns):
+            cells = split_line(line)
+            if len(cells) != len(columns):
                 continue
-            row = Row(columns, line)
+            row = Row(columns, line, cells)
             self.rows.pop(row.name, None)
             self.rows[row.name] = row
+
+    def missing_file(self, folder):
+        """One of the files that the lines name and that is not in the folder; None if all are there."""
+        return next((name for row in self.rows.values() for name in row.files()
+                     if not os.path.exists(os.path.join(folder, name))), None)
 
     def failed_line(self, name, file, reason):
         """The line of a mesh that has no results for this reason."""

@@ -24,7 +24,8 @@ def queue(at_once=False):
     FOLDER.mkdir(parents=True, exist_ok=True)
     with open(FOLDER / "queue", "a+") as file:
         fcntl.lockf(file, fcntl.LOCK_EX)
-        is_old = time.time() - os.fstat(file.fileno()).st_mtime > SECONDS_OF_AN_ANSWER
+        # The clock of another machine may have written a time to come.
+        is_old = abs(time.time() - os.fstat(file.fileno()).st_mtime) > SECONDS_OF_AN_ANSWER
         if at_once or is_old or file.tell() == 0:
             answer = subprocess.run(["squeue", "--me", "--noheader", "--states=all", "--format=%i|%T|%r"],
                                     capture_output=True, text=True, check=False)

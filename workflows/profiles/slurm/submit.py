@@ -53,8 +53,10 @@ def main():
     ends = pathlib.Path(".snakemake/slurm").absolute()
     ends.mkdir(parents=True, exist_ok=True)
     command = ["sbatch", "--parsable", "--requeue", f"--job-name={name}", "--ntasks=1",
-               f"--cpus-per-task={job.get('threads', 1)}", f"--output={ends}/%x-%j.log", "--open-mode=append",
-               f"--export=ALL,MEDIAL_VK_ENDS={ends}"]
+               f"--cpus-per-task={job.get('threads', 1)}", f"--output={str(ends).replace('%', '%%')}/%x-%j.log",
+               "--open-mode=append", "--export=ALL"]
+    # In the environment, as --export ends a value at a comma.
+    os.environ["MEDIAL_VK_ENDS"] = str(ends)
     for resource, option in (("mem_mb", "--mem={}M"), ("runtime", "--time={}"), ("partition", "--partition={}"),
                              ("gres", "--gres={}")):
         if resources.get(resource):
