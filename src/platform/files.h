@@ -26,6 +26,10 @@ std::uint64_t length_of_regular(std::FILE* file);
 /// Writes until all bytes are written. False: errno says why. May be called in a handler of signals.
 bool write_all(int descriptor, std::string_view bytes);
 
+/// The same text for all paths that this system, as it is by default, takes for one: on Windows, where case does not
+/// matter. Whether two existing files are one, std::filesystem::equivalent() tells.
+std::string file_key(const std::string& path);
+
 /// Removes a file if it is there, and is no folder.
 void remove_file(const std::string& path);
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "platform/utf16.h"
+
 namespace medial_vk::platform {
 
 /// The signs between folders.
@@ -15,14 +17,24 @@ inline constexpr const char* kFolderSigns = "/\\";
 inline constexpr const char* kFolderSigns = "/";
 #endif
 
+/// Text that is no UTF-8, and names that are no UTF-16, fail nowhere (platform/utf16.h).
 inline std::filesystem::path path_of(std::string_view utf8) {
-  return std::filesystem::path(std::u8string(utf8.begin(), utf8.end()));
+#if defined(_WIN32)
+  const std::u16string units = utf16_of(utf8);
+  return std::wstring(units.begin(), units.end());
+#else
+  return std::filesystem::path(utf8);
+#endif
 }
 
 /// With `/` between folders, on Windows, too, which takes both: the same names stand in the files of every system.
 inline std::string text_of(const std::filesystem::path& path) {
-  const std::u8string text = path.generic_u8string();
-  return {text.begin(), text.end()};
+#if defined(_WIN32)
+  const std::wstring text = path.generic_wstring();
+  return utf8_of(std::u16string(text.begin(), text.end()));
+#else
+  return path.string();
+#endif
 }
 
 /// The last part of a path, and that part without its extension.

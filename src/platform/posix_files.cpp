@@ -86,6 +86,8 @@ bool write_all(int descriptor, std::string_view bytes) {
   return true;
 }
 
+std::string file_key(const std::string& path) { return path; }
+
 void remove_file(const std::string& path) { ::unlink(path.c_str()); }
 
 bool is_of_disk(int code) { return code == ENOSPC || code == EDQUOT || code == EROFS || code == EIO; }

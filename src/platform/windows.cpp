@@ -38,14 +38,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-std::string utf8_of(std::wstring_view text) {
-  const int length = static_cast<int>(text.size());
-  std::string out(3 * text.size(), '\0');
-  const int written = ::WideCharToMultiByte(CP_UTF8, 0, text.data(), length, out.data(), static_cast<int>(out.size()),
-                                            nullptr, nullptr);
-  out.resize(static_cast<std::size_t>(std::max(written, 0)));
-  return out;
-}
+std::string utf8_of(std::wstring_view text) { return platform::utf8_of(std::u16string(text.begin(), text.end())); }
 
 std::wstring wide(std::string_view text) { return path_of(text).wstring(); }
 
@@ -499,6 +492,15 @@ std::uint64_t length_of_regular(std::FILE* file) {
 
 bool write_all(int descriptor, std::string_view bytes) {
   return write_handle(::GetStdHandle(descriptor == kStandardOutput ? STD_OUTPUT_HANDLE : STD_ERROR_HANDLE), bytes);
+}
+
+std::string file_key(const std::string& path) {
+  const std::wstring given = wide(path);
+  std::wstring key = given;
+  const int length = static_cast<int>(given.size());
+  ::LCMapStringEx(LOCALE_NAME_INVARIANT, LCMAP_UPPERCASE, given.data(), length, key.data(), length, nullptr, nullptr,
+                  0);
+  return utf8_of(key);
 }
 
 void remove_file(const std::string& path) { ::DeleteFileW(wide_path(path).c_str()); }

@@ -8,13 +8,13 @@
 #include <string_view>
 #include <system_error>
 #include <unordered_map>
-#include <unordered_set>
 #include <utility>
 
 #include "cli/terminal/interrupt.h"
 #include "cli/terminal/messages.h"
 #include "common/file_extension.h"
 #include "input/csv_lines.h"
+#include "platform/files.h"
 #include "platform/paths.h"
 #include "scene_files/scene_formats.h"
 
@@ -25,11 +25,17 @@ namespace fs = std::filesystem;
 using platform::path_of;
 using platform::text_of;
 
-std::string name_of_path(const fs::path& given, const fs::path& file) {
+struct NamedPath {
+  std::string root;  ///< Of BatchMesh.
+  std::string name;
+};
+
+NamedPath name_of_path(const fs::path& given, const fs::path& file) {
   const fs::path normal = given.lexically_normal();
-  if (normal.is_relative() && !normal.empty() && *normal.begin() != "..") return text_of(normal);
+  if (!normal.has_root_path() && !normal.empty() && *normal.begin() != "..") return {{}, text_of(normal)};
   std::error_code error;
-  return text_of(fs::absolute(file, error).lexically_normal().relative_path());
+  const fs::path whole = fs::absolute(file, error).lexically_normal();
+  return {text_of(whole.root_path()), text_of(whole.relative_path())};
 }
 
 std::string in_one_line(const std::string& name) {
@@ -55,6 +61,12 @@ bool holds_table(const fs::path& folder) {
 
 Error folder_error(const fs::path& folder, const std::error_code& error) {
   return {ErrorCode::kInvalidMesh, fmt::format("{}: {}", text_of(folder), error.default_error_condition().message())};
+}
+
+/// Of paths with one key: folders may be set to tell apart names by case.
+bool is_one_file(const std::string& one, const std::string& other) {
+  std::error_code error;
+  return one == other || fs::equivalent(path_of(one), path_of(other), error);
 }
 
 class MeshSearch {
@@ -152,29 +164,29 @@ class MeshSearch {
 
   Status add_mesh(const fs::path& given, const std::string& file) {
     std::string real = real_path(file);
-    if (!files_.insert(real).second) return {};
-    const std::string path = name_of_path(given, path_of(file));
+    const auto same = of_file_.try_emplace(platform::file_key(real), meshes_.size()).first;
+    if (same->second < meshes_.size() && is_one_file(meshes_[same->second].real, real)) return {};
+    const auto [root, path] = name_of_path(given, path_of(file));
     const std::string name = in_one_line(path);
-    const auto [at, is_new] = of_name_.try_emplace(name, meshes_.size());
+    const auto [at, is_new] = of_name_.try_emplace(platform::file_key(name), meshes_.size());
     if (!is_new) {
       return Error{ErrorCode::kUsage, fmt::format("the results of {} and {} would have one name, {}",
                                                   meshes_[at->second].file, file, name)};
     }
-    const bool from_root = path != given.lexically_normal().string();
-    meshes_.push_back({file, name, std::move(real), name == path ? "" : "its name has several lines", from_root});
+    meshes_.push_back({file, name, std::move(real), name == path ? "" : "its name has several lines", root});
     return {};
   }
 
   fs::path output_;
   bool is_single_;
   std::vector<BatchMesh> meshes_;
-  std::unordered_set<std::string> files_;
-  std::unordered_map<std::string, std::size_t> of_name_;
+  std::unordered_map<std::string, std::size_t> of_file_;  ///< By the key of the real path; in meshes_.
+  std::unordered_map<std::string, std::size_t> of_name_;  ///< By the key of the name.
 };
 
 }  // namespace
 
-std::string line_of_list(const BatchMesh& mesh) { return mesh.from_root ? "/" + mesh.name : mesh.name; }
+std::string line_of_list(const BatchMesh& mesh) { return mesh.root + mesh.name; }
 
 std::string real_path(const std::string& path) {
   std::error_code error;

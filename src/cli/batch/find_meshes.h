@@ -14,9 +14,9 @@ struct BatchMesh {
   /// the only input is one, else the path as it was given, or from the root of the file system if it is absolute or
   /// leads upwards. Line breaks are \n and \r in it.
   std::string name;
-  std::string real;        ///< The absolute path of the file, with links followed.
-  std::string fault;       ///< Why it cannot be done; empty: nothing is known.
-  bool from_root = false;  ///< The name is the path from the root of the file system.
+  std::string real;   ///< The absolute path of the file, with links followed.
+  std::string fault;  ///< Why it cannot be done; empty: nothing is known.
+  std::string root;   ///< Where the name begins: the root of the file system, or of a drive; empty: in a folder.
 };
 
 /// Inputs are folders, whose meshes are found at any depth and come in the order of their paths; lists, whose names end

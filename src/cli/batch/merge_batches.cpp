@@ -34,6 +34,7 @@ namespace medial_vk::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using platform::file_key;
 using platform::path_of;
 using platform::text_of;
 
@@ -66,7 +67,7 @@ Result<std::vector<std::string>> folders_of(const std::vector<std::string>& inpu
 /// A name that leads out of the folder is none that this program writes.
 bool stays_in_folder(const std::string& name) {
   const fs::path normal = path_of(name).lexically_normal();
-  return normal.is_relative() && text_of(normal) == name && *normal.begin() != "..";
+  return !normal.empty() && !normal.has_root_path() && text_of(normal) == name && *normal.begin() != "..";
 }
 
 void fail(BatchRow& row, std::string reason) {
@@ -123,12 +124,20 @@ class Merge {
     }
     const Result<BatchTable> before = folder_.read_rows();
     if (!before) return before.error();
-    for (const BatchRow& row : before.value().rows) earlier_.emplace(row[BatchColumn::kName], row);
+    for (const BatchRow& row : before.value().rows) {
+      if (!stays_in_folder(row[BatchColumn::kName])) {
+        return Error{ErrorCode::kUsage, fmt::format("{}: a name leads out of the folder; remove it, or name another "
+                                                    "folder with -o",
+                                                    folder_.table_path())};
+      }
+      earlier_.emplace(file_key(row[BatchColumn::kName]), row);
+    }
     if (Status status = check_files(); !status) return status;
     if (Status status = begin(); !status) return status;
     remove_temporary_links(options_.output);
-    for (const auto& [name, row] : earlier_) {
-      if (!of_name_.contains(name)) remove_results(folder_.path_of(name), row[BatchColumn::kFiles]);
+    for (const auto& [key, row] : earlier_) {
+      if (of_name_.contains(key)) continue;
+      remove_results(folder_.path_of(row[BatchColumn::kName]), row[BatchColumn::kFiles]);
     }
     for (Merged& mesh : meshes_) {
       if (interrupted()) return stopped();
@@ -161,13 +170,13 @@ class Merge {
   Status add_row(BatchRow row, const std::string& folder) {
     if (row.has_results()) row[BatchColumn::kState] = kBatchDone;
     if (row.is_at_work()) fail(row, "a run ended while it was at work on this mesh");
-    const auto [at, is_new] = of_name_.try_emplace(row[BatchColumn::kName], meshes_.size());
+    const auto [at, is_new] = of_name_.try_emplace(file_key(row[BatchColumn::kName]), meshes_.size());
     if (is_new) {
       meshes_.push_back({std::move(row), folder});
       return {};
     }
     Merged& other = meshes_[at->second];
-    if (other.row[BatchColumn::kFile] != row[BatchColumn::kFile]) {
+    if (file_key(other.row[BatchColumn::kFile]) != file_key(row[BatchColumn::kFile])) {
       return Error{ErrorCode::kUsage,
                    fmt::format("the results of {} and {} would have one name, {}", other.row[BatchColumn::kFile],
                                row[BatchColumn::kFile], row[BatchColumn::kName])};
@@ -178,19 +187,19 @@ class Merge {
   }
 
   std::string earlier_files(const std::string& name) const {
-    const auto before = earlier_.find(name);
+    const auto before = earlier_.find(file_key(name));
     return before == earlier_.end() ? std::string() : before->second[BatchColumn::kFiles];
   }
 
   /// No result may replace a mesh, and none is removed that has become one.
   Status check_files() const {
     std::unordered_set<std::string> files;
-    for (const Merged& mesh : meshes_) files.insert(mesh.row[BatchColumn::kFile]);
+    for (const Merged& mesh : meshes_) files.insert(file_key(mesh.row[BatchColumn::kFile]));
     for (const Merged& mesh : meshes_) {
       const std::string& name = mesh.row[BatchColumn::kName];
       const std::string endings = endings_of_both(earlier_files(name), mesh.row[BatchColumn::kFiles]);
       for (const std::string& path : paths_of_results(folder_.path_of(name), endings)) {
-        if (files.contains(real_path(path))) {
+        if (files.contains(file_key(real_path(path)))) {
           return Error{ErrorCode::kUsage, fmt::format("a result of {} would overwrite the mesh {}", name, path)};
         }
       }
@@ -209,12 +218,26 @@ class Merge {
       row[BatchColumn::kFiles] = endings_of_both(earlier_files(row[BatchColumn::kName]), row[BatchColumn::kFiles]);
       rows.push_back(std::move(row));
     }
-    for (const auto& [name, earlier] : earlier_) {
-      if (of_name_.contains(name)) continue;
+    for (const auto& [key, earlier] : earlier_) {
+      if (of_name_.contains(key)) continue;
       rows.push_back(earlier);
       rows.back()[BatchColumn::kState] = kBatchStarted;
     }
     return folder_.replace_table(rows);
+  }
+
+  /// An earlier merge, or a run, has made the results of this line here.
+  bool has_results_of(const BatchRow& row) const {
+    const auto before = earlier_.find(file_key(row[BatchColumn::kName]));
+    if (before == earlier_.end() || !before->second.has_results()) return false;
+    const BatchRow& earlier = before->second;
+    for (const BatchColumn column : {BatchColumn::kName, BatchColumn::kContent, BatchColumn::kOptions,
+                                     BatchColumn::kVersion, BatchColumn::kFiles}) {
+      if (earlier[column] != row[column]) return false;
+    }
+    std::error_code error;
+    return std::ranges::all_of(paths_of_results(folder_.path_of(row[BatchColumn::kName]), row[BatchColumn::kFiles]),
+                               [&](const auto& file) { return fs::exists(path_of(file), error); });
   }
 
   Status take_files(Merged& mesh) {
@@ -225,6 +248,7 @@ class Merge {
     std::error_code error;
     const auto missing =
         std::ranges::find_if(sources, [&](const auto& file) { return !fs::exists(path_of(file), error); });
+    if (missing != sources.end() && has_results_of(row)) return {};
     if (missing != sources.end()) fail(row, fmt::format("its result {} is missing", *missing));
     const std::vector<std::string> targets = paths_of_results(to, row[BatchColumn::kFiles]);
     for (const std::string& path : paths_of_results(to, earlier_files(name))) {
@@ -265,8 +289,8 @@ class Merge {
   const BatchOptions& options_;
   BatchFolder folder_;
   std::vector<Merged> meshes_;
-  std::unordered_map<std::string, std::size_t> of_name_;  ///< The number in meshes_.
-  std::unordered_map<std::string, BatchRow> earlier_;     ///< By name: what the folder had before.
+  std::unordered_map<std::string, std::size_t> of_name_;  ///< The number in meshes_, by the key of the name.
+  std::unordered_map<std::string, BatchRow> earlier_;     ///< By the key of the name: what the folder had before.
   const std::string temporary_ = folder_.path_of(fmt::format("{}{:08x}", kTemporary, std::random_device()()));
   Stopwatch whole_;
 };

@@ -38,12 +38,15 @@
 #include "common/tool_errors.h"
 #include "medial_vk/version.h"
 #include "output/atomic_files/atomic_file.h"
+#include "platform/files.h"
 #include "platform/machine.h"
+#include "platform/paths.h"
 
 namespace medial_vk::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using platform::file_key;
 
 Error stopped_batch() { return {ErrorCode::kInterrupted, "interrupted; the meshes that are done are kept"}; }
 
@@ -77,7 +80,7 @@ class BatchRun {
   Status run() {
     Result<BatchTable> table = folder_.read_rows();
     if (!table) return table.error();
-    for (const BatchRow& row : table.value().rows) rows_.emplace(row[BatchColumn::kName], row);
+    for (const BatchRow& row : table.value().rows) rows_.emplace(file_key(row[BatchColumn::kName]), row);
     if (Status status = check_files(); !status) return status;
     if (Status status = check_sources(); !status) return status;
     if (Status status = folder_.replace_table(table.value().rows); !status) return status;
@@ -109,19 +112,19 @@ class BatchRun {
 
   /// The endings of the files that earlier runs may have left of a mesh.
   std::string earlier_files(const BatchMesh& mesh) const {
-    const auto before = rows_.find(mesh.name);
+    const auto before = rows_.find(file_key(mesh.name));
     return before == rows_.end() ? std::string() : before->second[BatchColumn::kFiles];
   }
 
   /// No result may replace a mesh, and none is removed that has become one.
   Status check_files() const {
     std::unordered_map<std::string, const BatchMesh*> inputs;
-    for (const BatchMesh& mesh : meshes_) inputs.emplace(mesh.real, &mesh);
+    for (const BatchMesh& mesh : meshes_) inputs.emplace(file_key(mesh.real), &mesh);
     for (const BatchMesh& mesh : meshes_) {
       const std::string stem = stem_of(mesh);
       const std::string endings = endings_of_both(earlier_files(mesh), endings_of(options_of(mesh), stem));
       for (const std::string& path : paths_of_results(stem, endings)) {
-        if (const auto replaced = inputs.find(real_path(path)); replaced != inputs.end()) {
+        if (const auto replaced = inputs.find(file_key(real_path(path))); replaced != inputs.end()) {
           return Error{ErrorCode::kUsage,
                        fmt::format("a result of {} would overwrite the mesh {}", mesh.file, replaced->second->file)};
         }
@@ -133,11 +136,12 @@ class BatchRun {
   /// The results of a mesh are not replaced by those of another one that happens to have its name.
   Status check_sources() const {
     for (const BatchMesh& mesh : meshes_) {
-      const auto before = rows_.find(mesh.name);
+      const auto before = rows_.find(file_key(mesh.name));
       if (before == rows_.end()) continue;
       const std::string& file = before->second[BatchColumn::kFile];
       std::error_code error;
-      if (file.empty() || file == without_line_ends(mesh.real) || !fs::exists(platform::path_of(file), error)) continue;
+      if (file.empty() || file_key(file) == file_key(without_line_ends(mesh.real))) continue;
+      if (!fs::exists(platform::path_of(file), error)) continue;
       return Error{ErrorCode::kUsage,
                    fmt::format("{} has results of {} with the name {}, and {} is another file: name another folder "
                                "with -o",
@@ -158,12 +162,12 @@ class BatchRun {
   std::vector<std::size_t> in_order(std::span<const BatchRow> rows) const {
     std::unordered_map<std::string, std::size_t> turn_of;
     for (const BatchRow& row : rows) {
-      if (row.is_at_work()) turn_of.emplace(row[BatchColumn::kName], turn_of.size() + 1);
+      if (row.is_at_work()) turn_of.emplace(file_key(row[BatchColumn::kName]), turn_of.size() + 1);
     }
     std::vector<std::size_t> order(meshes_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, {}, [&](std::size_t i) {
-      const auto turn = turn_of.find(meshes_[i].name);
+      const auto turn = turn_of.find(file_key(meshes_[i].name));
       return turn == turn_of.end() ? std::size_t{0} : turn->second;
     });
     return order;
@@ -201,7 +205,7 @@ class BatchRun {
     if (!status) take_failure(status.error(), row);
     if (Status appended = folder_.append(row); !appended) return appended;
     tell(mesh, row);
-    rows_.insert_or_assign(mesh.name, std::move(row));
+    rows_.insert_or_assign(file_key(mesh.name), std::move(row));
     return {};
   }
 
@@ -293,7 +297,7 @@ class BatchRun {
 
   /// The line of an earlier run that has done the same on a mesh of this name, whose files are there; none: nullptr.
   BatchRow* done_before(const BatchRow& row, const Options& of_mesh) {
-    const auto before = rows_.find(row[BatchColumn::kName]);
+    const auto before = rows_.find(file_key(row[BatchColumn::kName]));
     if (before == rows_.end() || !before->second.has_results()) return nullptr;
     for (const BatchColumn column : {BatchColumn::kOptions, BatchColumn::kVersion}) {
       if (before->second[column] != row[column]) return nullptr;
@@ -310,12 +314,12 @@ class BatchRun {
     rows.reserve(rows_.size());
     std::size_t failed = 0;
     for (const BatchMesh& mesh : meshes_) {
-      rows.push_back(std::move(rows_.extract(mesh.name).mapped()));
+      rows.push_back(std::move(rows_.extract(file_key(mesh.name)).mapped()));
       failed += rows.back().is_done() ? 0 : 1;
     }
     // Meshes of earlier runs that were not among the inputs of this one.
     std::vector<BatchRow> others;
-    for (auto& [name, row] : rows_) others.push_back(std::move(row));
+    for (auto& [key, row] : rows_) others.push_back(std::move(row));
     std::ranges::sort(others, {}, [](const BatchRow& row) { return row[BatchColumn::kName]; });
     std::ranges::move(others, std::back_inserter(rows));
     if (Status status = folder_.replace_table(rows); !status) return status;
@@ -347,7 +351,7 @@ class BatchRun {
   SharedOfRun shared_;
   Stopwatch whole_;
   bool is_open_ = false;                            ///< The device is open, or is being opened.
-  std::unordered_map<std::string, BatchRow> rows_;  ///< By name, of earlier runs and of this one.
+  std::unordered_map<std::string, BatchRow> rows_;  ///< By the key of the name, of earlier runs and of this one.
   std::size_t kept_ = 0;
 };
 

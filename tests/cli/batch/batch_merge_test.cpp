@@ -138,6 +138,25 @@ TEST_F(BatchMerge, LinesWithoutResultsAreFailures) {
   EXPECT_FALSE(exists("out/a.obj.medial.ply"));
 }
 
+// What a part has lost is kept where an earlier merge has it, but only if it is of the same mesh and options.
+TEST_F(BatchMerge, AResultThatOnlyTheFolderHasIsKept) {
+  write_box("in/a.obj", 0.5);
+  ASSERT_EQ(run_part("a.obj\n", "parts/0").exit_code, 0);
+  ASSERT_EQ(merge({"parts/0", "-o", "out"}).exit_code, 0);
+  const std::string points = bytes_of("out/a.obj.medial.ply");
+  fs::remove(path("parts/0/a.obj.medial.ply"));
+  const ToolResult kept = merge({"parts/0", "-o", "out"});
+  EXPECT_EQ(kept.exit_code, 0) << kept.err;
+  EXPECT_THAT(states(), ElementsAre(Pair("a.obj", "done")));
+  EXPECT_EQ(bytes_of("out/a.obj.medial.ply"), points);
+  ASSERT_EQ(run_part("a.obj\n", "parts/1", {"--object-angle", "0.3"}).exit_code, 0);
+  fs::remove(path("parts/1/a.obj.medial.ply"));
+  const ToolResult other = merge({"parts/1", "-o", "out"});
+  EXPECT_EQ(other.exit_code, 9) << other.err;
+  EXPECT_THAT(states(), ElementsAre(Pair("a.obj", "failed")));
+  EXPECT_FALSE(exists("out/a.obj.medial.ply"));
+}
+
 TEST_F(BatchMerge, TheSameMeshTwiceCountsOnceAndAnotherOneIsRefused) {
   write_box("in/a.obj", 0.5);
   write_box("other/a.obj", 0.6);
@@ -165,6 +184,24 @@ TEST_F(BatchMerge, NothingLeadsOutOfTheFolder) {
     EXPECT_EQ(refused.exit_code, 3) << name;
     EXPECT_THAT(refused.err, HasSubstr("a name leads out of the folder")) << name;
     EXPECT_FALSE(exists("out/batch.csv"));
+  }
+}
+
+// Neither in the table that is there: what has no part any longer is removed.
+TEST_F(BatchMerge, NothingOutsideTheFolderIsRemoved) {
+  write_box("in/a.obj", 0.5);
+  ASSERT_EQ(run_part("a.obj\n", "parts/0").exit_code, 0);
+  const std::string table = bytes_of("parts/0/batch.csv");
+  write("victim.medial.ply", "of another folder");
+  for (const std::string& name : {std::string("../victim"), path("victim")}) {
+    std::string edited = table;
+    edited.replace(edited.find("\na.obj,") + 1, 5, name);
+    write("out/batch.csv", edited);
+    const ToolResult refused = merge({"parts/0", "-o", "out"});
+    EXPECT_EQ(refused.exit_code, 2) << name;
+    EXPECT_THAT(refused.err, HasSubstr("out/batch.csv: a name leads out of the folder")) << name;
+    EXPECT_TRUE(exists("victim.medial.ply")) << name;
+    EXPECT_EQ(bytes_of("out/batch.csv"), edited);
   }
 }
 

@@ -60,6 +60,18 @@ TEST(PlatformPaths, AreUtf8) {
   EXPECT_EQ(stem_of(inner), std::string(kName) + ".tar");
 }
 
+TEST(PlatformPaths, KeysAreThoseOfTheSystem) {
+#if defined(_WIN32)
+  constexpr bool kCaseMatters = false;
+#else
+  constexpr bool kCaseMatters = true;
+#endif
+  EXPECT_EQ(file_key("a/L\xc3\xb6sung.OBJ"), file_key("a/L\xc3\xb6sung.OBJ"));
+  EXPECT_EQ(file_key("a/L\xc3\xb6sung.OBJ") != file_key("A/l\xc3\x96sung.obj"), kCaseMatters);
+  EXPECT_NE(file_key("a/b.obj"), file_key("a/c.obj"));
+  EXPECT_EQ(file_key(""), "");
+}
+
 TEST_F(PlatformFiles, BytesAreWrittenAsTheyAre) {
   const std::string bytes("line\r\nline\n\x1a\0end", 16);
   make(kName, bytes);
