@@ -15,7 +15,9 @@ elseif(MEDIAL_VK_USE_ASSIMP)
   find_package(assimp REQUIRED)
 endif()
 # find_package is not used for these, because Debian's files for them require packages that are not needed.
-find_package(PkgConfig REQUIRED)
+if(MEDIAL_VK_USE_LIBZIP OR MEDIAL_VK_USE_TINYXML2)
+  find_package(PkgConfig REQUIRED)
+endif()
 foreach(library libzip tinyxml2)
   string(TOUPPER ${library} name)
   if(MEDIAL_VK_USE_${name} STREQUAL "AUTO")
@@ -34,11 +36,16 @@ function(medial_vk_optional_library target option definition imported without)
     message(STATUS "Without ${without}")
   endif()
 endfunction()
+set(assimp_packages libassimp-dev)
 if(MEDIAL_VK_USE_ASSIMP STREQUAL "AUTO" AND NOT TARGET PkgConfig::libzip)
-  set(MEDIAL_VK_USE_ASSIMP OFF)  # archives of scenes are measured by it before they are expanded
+  set(MEDIAL_VK_USE_ASSIMP OFF)  # archives of scenes are measured by libzip before they are expanded
+  set(assimp_packages libzip-dev)
+  if(NOT TARGET assimp::assimp)
+    set(assimp_packages "libassimp-dev libzip-dev")
+  endif()
 endif()
 medial_vk_optional_library(medial_vk_assimp MEDIAL_VK_USE_ASSIMP MEDIAL_VK_HAS_ASSIMP assimp::assimp
-  "assimp: OBJ, PLY, STL and OFF are read, glTF, 3MF, FBX and COLLADA are not (libassimp-dev)")
+  "assimp: OBJ, PLY, STL and OFF are read, glTF, 3MF, FBX and COLLADA are not (${assimp_packages})")
 medial_vk_optional_library(medial_vk_zip MEDIAL_VK_USE_LIBZIP MEDIAL_VK_HAS_ZIP PkgConfig::libzip
   "libzip: no .npz is read or written, sets of balls for `distance` among them (libzip-dev)")
 medial_vk_optional_library(medial_vk_xml MEDIAL_VK_USE_TINYXML2 MEDIAL_VK_HAS_XML PkgConfig::tinyxml2

@@ -37,12 +37,16 @@ Status check_format_is_built(const std::string& path) {
   const std::string extension = file_extension(path);
   const bool needs_zip = !kHasZip && extension == ".npz", needs_xml = !kHasXml && extension == ".urdf";
   if (!needs_zip && !needs_xml) return {};
-  return Error{ErrorCode::kUsage, fmt::format("{}: this build writes no {} files, for which it needs {}", path,
-                                              extension, needs_zip ? "libzip" : "tinyxml2")};
+  return Error{ErrorCode::kUsage,
+               fmt::format("{}: {}", path, not_written(extension, needs_zip ? "libzip" : "tinyxml2"))};
 }
 
-std::string not_built(const char* format, const char* library) {
+std::string not_read(const char* format, const char* library) {
   return fmt::format("this build reads no {} files, for which it needs {}", format, library);
+}
+
+std::string not_written(const std::string& format, const char* library) {
+  return fmt::format("this build writes no {} files, for which it needs {}", format, library);
 }
 
 }  // namespace medial_vk

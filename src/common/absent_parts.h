@@ -14,7 +14,8 @@ std::vector<std::string> absent_parts();
 /// Why files of this path cannot be written by this build: kUsage.
 Status check_format_is_built(const std::string& path);
 
-/// For readers: "this build reads no .npz files, for which it needs libzip".
-std::string not_built(const char* format, const char* library);
+/// For readers and writers: "this build reads no .npz files, for which it needs libzip", and "writes".
+std::string not_read(const char* format, const char* library);
+std::string not_written(const std::string& format, const char* library);
 
 }  // namespace medial_vk

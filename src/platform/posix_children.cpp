@@ -25,9 +25,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// More than any result, and more messages than anyone reads: a driver that writes without end fills no memory.
-constexpr std::size_t kMostResult = std::size_t{16} << 20, kMostMessages = std::size_t{64} << 10;
-
 /// A process that waits in the kernel, for instance for a GPU that hangs, does not even end when it is killed.
 constexpr std::chrono::seconds kPatienceAfterKill(5);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -39,6 +40,9 @@ struct ChildOutcome {
   std::string result = {};    ///< What `work` returned.
   std::string messages = {};  ///< What was written to standard output and standard error meanwhile, shortened if long.
 };
+
+/// More than any result, and more messages than anyone reads: a driver that writes without end fills no memory.
+inline constexpr std::size_t kMostResult = std::size_t{16} << 20, kMostMessages = std::size_t{64} << 10;
 
 /// Runs `work` in another process, which begins like a copy of this one, and waits for it, at most for `limit`.
 /// Standard input is empty there; nothing that it writes appears, and no core file. It ends with this process. On

@@ -47,7 +47,9 @@ std::wstring wide_path(const std::string& text) {
   constexpr std::size_t kLongest = 240;  // less than MAX_PATH, since names are appended
   std::error_code error;
   const fs::path given = path_of(text);
-  if (text == "NUL" || text.starts_with("\\\\") || text.starts_with("//")) return given.wstring();
+  const bool has_prefix = text.size() >= 4 && text.find_first_not_of("/\\") == 2 &&
+                          (text[2] == '?' || text[2] == '.') && (text[3] == '/' || text[3] == '\\');
+  if (text == "NUL" || has_prefix) return given.wstring();
   std::wstring whole = fs::absolute(given, error).lexically_normal().make_preferred().wstring();
   if (error || whole.size() < kLongest) return given.wstring();
   return whole.starts_with(L"\\\\") ? L"\\\\?\\UNC" + whole.substr(1) : L"\\\\?\\" + whole;
@@ -96,6 +98,22 @@ bool write_handle(HANDLE handle, std::string_view bytes) {
       return false;
     }
     bytes.remove_prefix(written);
+  }
+  return true;
+}
+
+/// A console takes UTF-16 whatever its code page, which other programs use, too, and which therefore stays.
+bool write_console(HANDLE console, std::string_view utf8) {
+  constexpr std::size_t kPart = 8192;  // units: older systems refuse much more than 64 KiB at a time
+  const std::wstring text = wide(utf8);
+  for (std::wstring_view left = text; !left.empty();) {
+    DWORD written = 0;
+    if (::WriteConsoleW(console, left.data(), static_cast<DWORD>(std::min(left.size(), kPart)), &written, nullptr) ==
+        0) {
+      errno = last_reason();
+      return false;
+    }
+    left.remove_prefix(written);
   }
   return true;
 }
@@ -190,8 +208,6 @@ bool matches(std::string_view name, std::string_view pattern) {
 
 // ---- Children.
 
-/// More than any result, and more messages than anyone reads: a driver that writes without end fills no memory.
-constexpr std::size_t kMostResult = std::size_t{16} << 20, kMostMessages = std::size_t{64} << 10;
 constexpr const wchar_t* kReplay = L"MEDIAL_VK_CHILD";
 
 std::wstring variable(const wchar_t* name) {
@@ -491,7 +507,9 @@ std::uint64_t length_of_regular(std::FILE* file) {
 }
 
 bool write_all(int descriptor, std::string_view bytes) {
-  return write_handle(::GetStdHandle(descriptor == kStandardOutput ? STD_OUTPUT_HANDLE : STD_ERROR_HANDLE), bytes);
+  const HANDLE stream = ::GetStdHandle(descriptor == kStandardOutput ? STD_OUTPUT_HANDLE : STD_ERROR_HANDLE);
+  DWORD mode = 0;
+  return ::GetConsoleMode(stream, &mode) != 0 ? write_console(stream, bytes) : write_handle(stream, bytes);
 }
 
 std::string file_key(const std::string& path) {
@@ -618,7 +636,6 @@ void AppendedFile::close() {
 
 std::vector<std::string> prepare_process(int, char**) {
   for (const int descriptor : {0, 1, 2}) ::_setmode(descriptor, _O_BINARY);
-  ::SetConsoleOutputCP(CP_UTF8);
   int count = 0;
   const std::unique_ptr<wchar_t*, decltype(&::LocalFree)> words(::CommandLineToArgvW(::GetCommandLineW(), &count),
                                                                 &::LocalFree);

@@ -1,5 +1,6 @@
 /* interrupt MILLISECONDS COMMAND...: runs a command in a console of its own, sends Ctrl-C to it after so many
-   milliseconds, and ends with its exit code. For scripts/test-windows, by MinGW-w64. */
+   milliseconds, and ends with its exit code, or with 4 if the code page of the console, which the programs of a user
+   share, is another one then. For scripts/test-windows, by MinGW-w64. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,6 +22,8 @@ int wmain(int count, wchar_t** words) {
     fprintf(stderr, "interrupt: no console\n");
     return 3;
   }
+  SetConsoleOutputCP(437);
+  const UINT page = GetConsoleOutputCP();
   STARTUPINFOW startup;
   PROCESS_INFORMATION process;
   memset(&startup, 0, sizeof startup);
@@ -43,5 +46,9 @@ int wmain(int count, wchar_t** words) {
   WaitForSingleObject(process.hProcess, 120000);
   DWORD code = 1;
   GetExitCodeProcess(process.hProcess, &code);
+  if (GetConsoleOutputCP() != page) {
+    fprintf(stderr, "interrupt: the code page was %u and is %u\n", page, GetConsoleOutputCP());
+    return 4;
+  }
   return (int)code;
 }

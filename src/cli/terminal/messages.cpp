@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <utility>
 
 #include "common/tool_errors.h"
 #include "output/atomic_files/atomic_file.h"
+#include "platform/files.h"
 
 namespace medial_vk::cli {
 namespace {
@@ -230,7 +230,7 @@ Status print_result(const std::string& text) {
   return write_files({&file, 1});
 }
 
-void print_message(const std::string& text) { std::fputs(text.c_str(), stderr); }
+void print_message(const std::string& text) { platform::write_all(platform::kStandardError, text); }
 
 int exit_code(ErrorCode code) {
   if (code == kCannotWrite || code == kDiskFails) return 6;

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "cli/terminal/numbers.h"
+#include "platform/files.h"
 #include "platform/terminal.h"
 
 namespace medial_vk::cli {
@@ -42,8 +42,7 @@ Progress::Progress(bool requested) : requested_(requested), drawing_(requested &
 
 void Progress::draw(const std::string& line) {
   last_drawn_ = Clock::now();
-  fmt::print(stderr, "\r{}\033[K", line);
-  std::fflush(stderr);
+  platform::write_all(platform::kStandardError, fmt::format("\r{}\033[K", line));
   visible_ = true;
 }
 
@@ -68,8 +67,7 @@ void Progress::update_count(const char* stage, std::size_t done, std::size_t tot
 void Progress::clear() {
   const std::lock_guard lock(mutex_);
   if (!visible_) return;
-  std::fputs("\r\033[K", stderr);
-  std::fflush(stderr);
+  platform::write_all(platform::kStandardError, "\r\033[K");
   visible_ = false;
 }
 

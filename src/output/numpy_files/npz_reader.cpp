@@ -201,7 +201,7 @@ Result<std::map<std::string, NpyArray>> read_npz(std::string_view bytes, const s
 namespace medial_vk {
 
 Result<std::map<std::string, NpyArray>> read_npz(std::string_view, const std::string& name) {
-  return Error{ErrorCode::kInvalidMesh, name + ": " + not_built(".npz", "libzip")};
+  return Error{ErrorCode::kInvalidMesh, name + ": " + not_read(".npz", "libzip")};
 }
 
 }  // namespace medial_vk

@@ -77,7 +77,7 @@ Result<std::string> make_zip(std::span<const ZipMember> members) {
 namespace medial_vk {
 
 Result<std::string> make_zip(std::span<const ZipMember>) {
-  return Error{ErrorCode::kUsage, not_built(".npz", "libzip")};
+  return Error{ErrorCode::kUsage, not_written(".npz", "libzip")};
 }
 
 }  // namespace medial_vk

@@ -76,7 +76,7 @@ Result<std::string> encode_spheres_urdf(const SphereFile& file) {
 namespace medial_vk {
 
 Result<std::string> encode_spheres_urdf(const SphereFile&) {
-  return Error{ErrorCode::kUsage, not_built("URDF", "tinyxml2")};
+  return Error{ErrorCode::kUsage, not_written(".urdf", "tinyxml2")};
 }
 
 }  // namespace medial_vk

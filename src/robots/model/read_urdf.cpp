@@ -206,7 +206,7 @@ Result<Robot> read_urdf(std::string_view bytes, const std::string& name, UrdfDet
 
 #else
 Result<Robot> read_urdf(std::string_view, const std::string& name, UrdfDetail) {
-  return file_error(name, not_built("URDF", "tinyxml2"));
+  return file_error(name, not_read("URDF", "tinyxml2"));
 }
 #endif
 

@@ -74,7 +74,7 @@ std::string encode_srdf(const Robot& robot, std::span<const ReasonedPairs> left_
 namespace medial_vk {
 
 Result<std::vector<LinkPair>> read_srdf(std::string_view, const std::string& name, const Robot&) {
-  return file_error(name, not_built("SRDF", "tinyxml2"));
+  return file_error(name, not_read("SRDF", "tinyxml2"));
 }
 
 // No build without the library has read a robot.

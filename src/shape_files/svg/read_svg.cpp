@@ -197,7 +197,7 @@ Result<SvgAreas> read_svg(std::string_view bytes, const std::string& name, std::
 namespace medial_vk {
 
 Result<SvgAreas> read_svg(std::string_view, const std::string& name, std::optional<double>, double) {
-  return file_error(name, not_built("SVG", "tinyxml2"));
+  return file_error(name, not_read("SVG", "tinyxml2"));
 }
 
 }  // namespace medial_vk

@@ -22,10 +22,12 @@ TEST(AbsentParts, AreNamedAndRefusedBeforeWork) {
     EXPECT_EQ(status.ok(), !lacks(library)) << file;
     if (status.ok()) continue;
     EXPECT_EQ(status.error().code, ErrorCode::kUsage);
+    EXPECT_THAT(status.error().message, testing::HasSubstr("this build writes no "));
     EXPECT_THAT(status.error().message, testing::HasSubstr(library));
   }
   EXPECT_TRUE(check_format_is_built("a.ply").ok());
-  EXPECT_EQ(not_built("SVG", "tinyxml2"), "this build reads no SVG files, for which it needs tinyxml2");
+  EXPECT_EQ(not_read("SVG", "tinyxml2"), "this build reads no SVG files, for which it needs tinyxml2");
+  EXPECT_EQ(not_written(".npz", "libzip"), "this build writes no .npz files, for which it needs libzip");
 }
 
 }  // namespace
