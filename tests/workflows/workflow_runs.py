@@ -5,6 +5,8 @@ import pathlib
 import shutil
 import subprocess
 import sys
+import tempfile
+import unittest
 
 HERE = pathlib.Path(__file__).resolve().parent
 SOURCE = HERE.parents[1]
@@ -13,6 +15,13 @@ from table import TABLE, Table  # noqa: E402
 
 # The table's columns that are the same in every run.
 TIMES = {"seconds_read", "seconds_prepare", "seconds_search", "seconds"}
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
 
 
 class WorkflowFolder:
