@@ -1,4 +1,9 @@
 # CLI11 from MEDIAL_VK_TARGET_HEADERS (../header_packages.cmake).
+if(NOT EXISTS ${MEDIAL_VK_TARGET_HEADERS}/CLI/CLI.hpp)
+  set(CLI11_FOUND FALSE)
+  set(CLI11_NOT_FOUND_MESSAGE "/usr/include/CLI/CLI.hpp is missing (package libcli11-dev)")
+  return()
+endif()
 if(NOT TARGET CLI11::CLI11)
   add_library(CLI11::CLI11 INTERFACE IMPORTED)
 endif()

@@ -1,4 +1,9 @@
 # Eigen3 from MEDIAL_VK_TARGET_HEADERS (../header_packages.cmake).
+if(NOT EXISTS ${MEDIAL_VK_TARGET_HEADERS}/eigen3/Eigen/Core)
+  set(Eigen3_FOUND FALSE)
+  set(Eigen3_NOT_FOUND_MESSAGE "/usr/include/eigen3/Eigen/Core is missing (package libeigen3-dev)")
+  return()
+endif()
 if(NOT TARGET Eigen3::Eigen)
   add_library(Eigen3::Eigen INTERFACE IMPORTED)
   target_include_directories(Eigen3::Eigen SYSTEM INTERFACE ${MEDIAL_VK_TARGET_HEADERS}/eigen3)

@@ -1,4 +1,9 @@
 # fmt from MEDIAL_VK_TARGET_HEADERS (../header_packages.cmake), whose compiled library is for Debian's own machines.
+if(NOT EXISTS ${MEDIAL_VK_TARGET_HEADERS}/fmt/format.h)
+  set(fmt_FOUND FALSE)
+  set(fmt_NOT_FOUND_MESSAGE "/usr/include/fmt/format.h is missing (package libfmt-dev)")
+  return()
+endif()
 if(NOT TARGET fmt::fmt)
   add_library(fmt::fmt-header-only INTERFACE IMPORTED)
   target_compile_definitions(fmt::fmt-header-only INTERFACE FMT_HEADER_ONLY=1)

@@ -1,4 +1,9 @@
 # nanoflann from MEDIAL_VK_TARGET_HEADERS (../header_packages.cmake).
+if(NOT EXISTS ${MEDIAL_VK_TARGET_HEADERS}/nanoflann.hpp)
+  set(nanoflann_FOUND FALSE)
+  set(nanoflann_NOT_FOUND_MESSAGE "/usr/include/nanoflann.hpp is missing (package libnanoflann-dev)")
+  return()
+endif()
 if(NOT TARGET nanoflann::nanoflann)
   add_library(nanoflann::nanoflann INTERFACE IMPORTED)
 endif()

@@ -1,4 +1,9 @@
 # nlohmann_json from MEDIAL_VK_TARGET_HEADERS (../header_packages.cmake).
+if(NOT EXISTS ${MEDIAL_VK_TARGET_HEADERS}/nlohmann/json.hpp)
+  set(nlohmann_json_FOUND FALSE)
+  set(nlohmann_json_NOT_FOUND_MESSAGE "/usr/include/nlohmann/json.hpp is missing (package nlohmann-json3-dev)")
+  return()
+endif()
 if(NOT TARGET nlohmann_json::nlohmann_json)
   add_library(nlohmann_json::nlohmann_json INTERFACE IMPORTED)
 endif()
