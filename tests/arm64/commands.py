@@ -33,6 +33,8 @@ COMMANDS = [
     "open.obj --resolution 24 --check -o d.ply",
     "box.dae --resolution 24 --check -o box.ply",
     "batch parts -o results --resolution 16 --html --volumes",
+    "batch parts -o listed --list",
+    "batch --merge results -o merged --html",
     "spheres model.obj --count 24 --check -o e.csv --picture e.png",
     "spheres model.obj --count 16 --contract cover --check -o f.csv",
     "spheres model.obj --count 16 --contract balanced -o g.csv",
@@ -228,6 +230,8 @@ def first_difference(one, other):
 def main():
     programs = [pathlib.Path(folder).resolve() / "medial-vk" for folder in sys.argv[1:3]]
     chosen = [c for c in COMMANDS if re.search(os.environ.get("MEDIAL_VK_COMMANDS", ""), c)]
+    if not chosen:
+        sys.exit(f"no command matches {os.environ['MEDIAL_VK_COMMANDS']}")
     different = 0
     keep = os.environ.get("MEDIAL_VK_KEEP")
     with tempfile.TemporaryDirectory() as temporary, concurrent.futures.ThreadPoolExecutor(2) as pool:
@@ -245,7 +249,7 @@ def main():
             after = [files_of(folder) for folder in folders]
             new, written = sorted(after[0] - written), after[0]
             faults = [] if after[0] == after[1] else [f"other files: {sorted(after[0] ^ after[1])}"]
-            if not new:
+            if not new and "--list" not in command:
                 faults.append("no file is written")
             if done[0][0] != done[1][0]:
                 faults.append(f"prints other text:\n{done[0][0]}\n{done[1][0]}")

@@ -2,20 +2,22 @@
 
     compare_commands.py NATIVE MEDIAL_VK.exe INTERRUPT.exe MAKE_MODEL WORK [STEP ...]
 
-Files and standard output have the same bytes, but for the files in LAST_DIGITS, and exit codes are equal. Left out of the
-comparison are times: the key `seconds` of JSON, the columns `seconds...` of the table of a batch, and standard error, whose
-summary has them; of an error its message is compared. The column `file` of that table has the whole path, which differs.
-Called by scripts/test-windows. A STEP is a name in STEPS.
+Files and standard output have the same bytes, but for the files in LAST_DIGITS, which same_results.py compares, and exit codes
+are equal. Left out of the comparison are times: the key `seconds` of JSON, the columns `seconds...` of the table of a batch, and
+standard error, whose summary has them; of an error its message is compared. The column `file` of that table has the whole path,
+which differs. Called by scripts/test-windows. A STEP is a name in STEPS.
 """
 import csv
 import io
 import json
-import math
-import os
 import pathlib
 import shutil
 import subprocess
 import sys
+
+import same_results
+from inputs import make_inputs
+from same_results import same_but_for_choices, same_but_for_roundings, same_surface, without_times
 
 NATIVE, WINDOWS, INTERRUPT, MAKE_MODEL, WORK = (pathlib.Path(word).resolve() for word in sys.argv[1:6])
 failures = []
@@ -34,87 +36,7 @@ def run(program, words, folder, **options):
     return subprocess.run(command, cwd=folder, capture_output=True, timeout=900, **options)
 
 
-# ---- Inputs.
-def obj_of(vertices, triangles, end="\n"):
-    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in vertices] + [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in triangles]
-    return end.join(lines) + end
-
-
-def ellipsoid(around, along, bend=0.0, shift=0.0):
-    """A closed mesh of 2 * around * (along - 1) triangles, bent along x."""
-    points = [(0.0, 0.0, 1.0)]
-    for i in range(1, along):
-        for j in range(around):
-            v, u = math.pi * i / along, 2 * math.pi * (j + 0.5 * i) / around
-            points.append((1.7 * math.sin(v) * math.cos(u), 0.9 * math.sin(v) * math.sin(u), math.cos(v)))
-    points.append((0.0, 0.0, -1.0))
-    triangles = []
-    at = lambda i, j: 1 + (i - 1) * around + j % around
-    for j in range(around):
-        triangles.append((0, at(1, j), at(1, j + 1)))
-        triangles.append((len(points) - 1, at(along - 1, j + 1), at(along - 1, j)))
-        for i in range(1, along - 1):
-            triangles.append((at(i, j), at(i + 1, j), at(i, j + 1)))
-            triangles.append((at(i, j + 1), at(i + 1, j), at(i + 1, j + 1)))
-    return [(x + shift, y, z + bend * x * x) for x, y, z in points], triangles
-
-
-def box(sides):
-    corners = [(x, y, z) for x in (0, sides[0]) for y in (0, sides[1]) for z in (0, sides[2])]
-    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-    return corners, [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
-
-
-def make_inputs(folder):
-    folder.mkdir(parents=True)
-    write = lambda name, text: (folder / name).write_bytes(text.encode())
-    write("egg.obj", obj_of(*ellipsoid(16, 9)))
-    write("egg_bent.obj", obj_of(*ellipsoid(16, 9, 0.1)))
-    write("egg_more.obj", obj_of(*ellipsoid(16, 9, 0.2)))
-    write("far.obj", obj_of(*ellipsoid(12, 7, 0.0, 4.0)))
-    write("box.obj", obj_of(*box((3.0, 1.0, 0.5))))
-    write("crlf.obj", obj_of(*ellipsoid(16, 9), end="\r\n"))
-    vertices, triangles = box((3.0, 1.0, 0.5))
-    facets = ["solid box"]
-    for t in triangles:
-        facets += ["facet normal 0 0 0", "outer loop"]
-        facets += [f"vertex {x} {y} {z}" for x, y, z in (vertices[i] for i in t)] + ["endloop", "endfacet"]
-    write("box.stl", "\n".join(facets + ["endsolid box", ""]))
-    write("crlf.stl", "\r\n".join(facets + ["endsolid box", ""]))
-    off = ["OFF", f"{len(vertices)} {len(triangles)} 0"] + [f"{x} {y} {z}" for x, y, z in vertices]
-    off += [f"3 {a} {b} {c}" for a, b, c in triangles]
-    write("box.off", "\n".join(off) + "\n")
-    write("crlf.off", "\r\n".join(off) + "\r\n")
-    ply = ["ply", "format ascii 1.0", f"element vertex {len(vertices)}", "property double x", "property double y",
-           "property double z", f"element face {len(triangles)}", "property list uchar int vertex_indices", "end_header"]
-    ply += [f"{x} {y} {z}" for x, y, z in vertices] + [f"3 {a} {b} {c}" for a, b, c in triangles]
-    write("box.ply", "\n".join(ply) + "\n")
-    write("crlf.ply", "\r\n".join(ply) + "\r\n")
-    poses = "x,y,z,qx,qy,qz,qw\n0,0,0,0,0,0,1\n0.5,0.25,3,0,0,0.6,0.8\n-1,2,0.5,0.48,0.6,0,0.64\n"
-    write("poses.csv", poses)
-    write("poses_crlf.csv", poses.replace("\n", "\r\n"))
-    wkt = "POLYGON((0 0,4 0,4 1,1 1,1 3,0 3,0 0))\n"
-    write("shape.wkt", wkt)
-    write("shape_crlf.wkt", wkt.replace("\n", "\r\n"))
-    write("apart.wkt", "POLYGON((2 2,5 2,5 3,2 3,2 2))\n")
-    write("ring.csv", "x,y\n0,0\n4,0\n4,1\n1,1\n1,3\n0,3\n")
-    write("ring_crlf.csv", "x,y\r\n0,0\r\n4,0\r\n4,1\r\n1,1\r\n1,3\r\n0,3\r\n")
-    shape = {"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 1], [1, 1], [1, 3], [0, 3], [0, 0]]]}
-    write("shape.geojson", json.dumps(shape, indent=1))
-    write("shape_crlf.geojson", json.dumps(shape, indent=1).replace("\n", "\r\n"))
-    write("list.txt", "egg.obj\nbox.stl\n")
-    write("list_crlf.txt", "egg.obj\r\nbox.stl\r\n")
-    write("broken.obj", "v 0 0 0\nf 1 2 3\n")
-    subprocess.run([str(MAKE_MODEL), "turtle.obj"], cwd=folder, check=True, capture_output=True)
-
-
 # ---- Comparison.
-def without_times(value):
-    if isinstance(value, dict):
-        return {key: without_times(inner) for key, inner in value.items() if key != "seconds"}
-    return [without_times(inner) for inner in value] if isinstance(value, list) else value
-
-
 def same_table(a, b):
     tables = [list(csv.DictReader(io.StringIO(text.decode()))) for text in (a, b)]
     for row in (row for table in tables for row in table):
@@ -137,10 +59,15 @@ def files_of(folder, inputs):
 
 
 def difference(a, b):
-    """Where two files differ: the bytes, and for tables the greatest difference of numbers."""
-    at = next((i for i, (x, y) in enumerate(zip(a, b)) if x != y), min(len(a), len(b)))
-    text = f"{len(a)} and {len(b)} bytes, from byte {at}: {a[max(0, at - 20):at + 30]!r} and {b[max(0, at - 20):at + 30]!r}"
-    return text
+    return f"{len(a)} and {len(b)} bytes, {same_results.apart(a, b)}"
+
+
+def difference_in_digits(may_differ, file, a, b):
+    """None if two files differ as LAST_DIGITS allows."""
+    try:
+        return may_differ[file](file, a, b) if file in may_differ else difference(a, b)
+    except Exception as error:  # a file that is none of its kind
+        return f"cannot be compared: {error!r}; {difference(a, b)}"
 
 
 def compare(name, words, stdin=None):
@@ -157,9 +84,12 @@ def compare(name, words, stdin=None):
     if native.returncode != windows.returncode:
         wrong.append(f"exit codes {native.returncode} and {windows.returncode}: {windows.stderr.decode()[-300:]}")
     # Reports of --check hold worst cases, so they follow the numbers.
-    may_differ = LAST_DIGITS.get(name, set())
-    if not may_differ and native.stdout != windows.stdout and not (native.stdout[:1] == b"{" and same_json(native.stdout, windows.stdout)):
-        wrong.append("standard output: " + difference(native.stdout, windows.stdout))
+    may_differ = LAST_DIGITS.get(name, {})
+    texts = (native.stdout, windows.stdout)
+    if texts[0] != texts[1] and not (texts[0][:1] == b"{" and same_json(*texts)):
+        problem = same_results.same_form(*texts) if may_differ else difference(*texts)
+        if problem:
+            wrong.append(f"standard output: {problem}")
     if messages(native) != messages(windows):
         wrong.append(f"messages {messages(native)} and {messages(windows)}")
     if set(contents[0]) != set(contents[1]):
@@ -173,16 +103,17 @@ def compare(name, words, stdin=None):
             continue
         if file.endswith("batch.csv") and same_table(a, b):
             continue
-        if file in may_differ:
+        problem = difference_in_digits(may_differ, file, a, b)
+        if problem:
+            wrong.append(f"{file}: {problem}")
+        else:
             declared.append(f"{name}/{file}")
-            continue
-        wrong.append(f"{file}: {difference(a, b)}")
     note(not wrong, f"{name}: medial-vk {' '.join(words)}" + "".join("\n        " + w for w in wrong))
     return native, windows
 
 
 COMMANDS = {
-    "version": ["--help"],
+    "help": ["--help"],
     "devices": ["--list-devices"],
     "analysis": ["egg.obj", "--resolution", "32", "--check", "--report", "egg.json", "--html", "egg.html", "--medial-mesh",
                  "egg.ply", "--ball-volumes", "egg.csv", "--sheet-curve", "curve.svg", "--picture", "egg.png"],
@@ -217,6 +148,8 @@ COMMANDS = {
                 "--check"],
     "voronoi_plane": ["voronoi", "shape.wkt", "apart.wkt", "-o", "v.svg"],
     "batch": ["batch", "list.txt", "-o", "out", "--resolution", "20", "--report", ".json", "--picture", ".png"],
+    "list": ["batch", "parts", "-o", "out", "--list"],
+    "list_of_list": ["batch", "list_crlf.txt", "parts/deep/box.obj", "-o", "out", "--list"],
     "missing_file": ["nowhere.obj"],
     "broken_file": ["broken.obj"],
     "wrong_option": ["egg.obj", "--resolution", "none"],
@@ -226,9 +159,12 @@ COMMANDS = {
 # Files in which hypot(), atan2() and other functions of the C runtime, whose last digits differ (docs/windows.md), reach the
 # numbers, or decide between choices that are equally good. Both results pass --check, or their proofs.
 LAST_DIGITS = {
-    "analysis": {"egg.csv", "egg.ply"}, "thickness": {"egg.vtp", "points.csv"},
-    "spheres": {"egg.spheres.csv", "r.json", "s.png", "s.svg"}, "spheres_cover": {"s.json"}, "spheres_balanced": {"s.yml"},
-    "follow": {"f.csv", "f.glb", "f.html", "f.png"}, "follow_pattern": {"f.csv"},
+    "analysis": {"egg.csv": same_but_for_roundings, "egg.ply": same_surface},
+    "thickness": dict.fromkeys(("egg.vtp", "points.csv"), same_but_for_roundings),
+    "spheres": dict.fromkeys(("egg.spheres.csv", "r.json", "s.png", "s.svg"), same_but_for_choices),
+    "spheres_cover": {"s.json": same_but_for_choices}, "spheres_balanced": {"s.yml": same_but_for_choices},
+    "follow": dict.fromkeys(("f.csv", "f.glb", "f.html", "f.png"), same_but_for_choices),
+    "follow_pattern": {"f.csv": same_but_for_choices},
 }
 # Parts that the build for Windows has not: what it says.
 ABSENT = {
@@ -315,12 +251,42 @@ def check_paths():
          f"paths: batch of a folder beyond ASCII {outcome.stderr.decode().strip()[-200:]}")
 
 
+def check_lists_and_merge():
+    """What --list prints names the same meshes in another run, and --merge makes the results of one run of those of two."""
+    folder = WORK / "lists"
+    shutil.copytree(WORK / "inputs", folder)
+    batch = lambda words, where=folder, **options: run(WINDOWS, ["batch", *words, "--backend", "cpu", "--resolution", "8", "-q"],
+                                                       where, **options)
+    lines = run(WINDOWS, ["batch", "parts", "-o", "alone", "--list"], folder).stdout.decode().splitlines()
+    note(lines == ["deep/box.obj", "egg.obj"], f"batch: --list names {lines}")
+    whole = "Z:" + (folder / "parts" / "deep" / "box.obj").as_posix()
+    (folder / "whole.txt").write_text(whole + "\n")
+    said = run(WINDOWS, ["batch", "whole.txt", "-o", "alone", "--list"], folder).stdout.decode()
+    note(said == whole + "\n", f"batch: --list keeps the drive: {said.strip()}")
+    codes = [batch(["parts", "-o", "alone"]).returncode]
+    for i, line in enumerate(lines):
+        codes.append(batch(["-", "-o", f"../part{i}"], folder / "parts", input=f"{line}\n".encode()).returncode)
+    codes.append(run(WINDOWS, ["batch", "--merge", "part0", "part1", "-o", "all"], folder).returncode)
+    alone, merged = ({path.relative_to(folder / name).as_posix(): path.read_bytes() for path in (folder / name).rglob("*.ply")}
+                     for name in ("alone", "all"))
+    note(codes == [0, 0, 0, 0] and len(alone) == 2 and alone == merged, f"batch: --merge: exit codes {codes}, {sorted(merged)}")
+    # One file by two names; a name that is no UTF-8 is that of no file, and fails alone.
+    (folder / "names.txt").write_bytes(b"parts/egg.obj\nPARTS\\Egg.OBJ\ncaf\xe9.obj\n")
+    outcome = batch(["names.txt", "-o", "names"])
+    table = folder / "names" / "batch.csv"
+    rows = table.read_text(errors="replace").splitlines()[1:] if table.exists() else []
+    states = [row.split(",")[:2] for row in rows]
+    note(outcome.returncode == 9 and [state for _, state in states] == ["done", "failed"],
+         f"batch: names without regard to case, and of any bytes: {outcome.returncode}, {states}")
+
+
 def check_batch_lock_and_resume():
     folder = WORK / "resume"
     shutil.copytree(WORK / "inputs", folder)
     words = ["batch", "list.txt", "-o", "out", "--resolution", "20"]
     first, again = run(WINDOWS, words, folder), run(WINDOWS, words, folder)
     note(first.returncode == 0 and again.returncode == 0, "batch: a second run goes on where the first has ended")
+    note("2 done before" in again.stderr.decode(), "batch: the second run does nothing again")
     rows = (folder / "out" / "batch.csv").read_text().splitlines()
     note(len(rows) == 3, f"batch: {len(rows) - 1} lines for two meshes")
     slow = subprocess.Popen(["wine", str(WINDOWS), "batch", "turtle.obj", "-o", "other", "--resolution", "120"], cwd=folder,
@@ -371,11 +337,15 @@ def check_doctor():
     note("by Wine" in text and report["devices"], "doctor: names the system and a device")
 
 
-make_inputs(WORK / "inputs")
-INPUTS = {path.name for path in (WORK / "inputs").iterdir()}
-STEPS = (compare_all, compare_line_ends, check_absent, check_paths, check_batch_lock_and_resume, check_interrupt, check_doctor)
-for step in STEPS:
-    if not sys.argv[6:] or step.__name__ in sys.argv[6:]:
+STEPS = {step.__name__: step for step in (compare_all, compare_line_ends, check_absent, check_paths, check_lists_and_merge,
+                                          check_batch_lock_and_resume, check_interrupt, check_doctor)}
+unknown = set(sys.argv[6:]) - set(STEPS)
+if unknown:
+    sys.exit(f"compare_commands.py: no steps: {', '.join(unknown)}; there are {', '.join(STEPS)}")
+make_inputs(WORK / "inputs", MAKE_MODEL)
+INPUTS = {path.relative_to(WORK / "inputs").as_posix() for path in (WORK / "inputs").rglob("*")}
+for name, step in STEPS.items():
+    if not sys.argv[6:] or name in sys.argv[6:]:
         step()
 print(f"{compared} files compared, {len(failures)} failures")
 print(f"other last digits of functions: {declared}; allowed, but not found: {alike}")
