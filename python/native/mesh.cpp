@@ -179,13 +179,13 @@ MeshHandle on_side(const MeshHandle& handle, py::dict values) {
 }
 
 MeshHandle moved(const MeshHandle& handle, py::handle vertices) {
-  IndexedMesh made =
+  const IndexedMesh made =
       value_of(run([mesh = handle.mesh, points = points_of(vertices, "vertices")]() mutable -> Result<IndexedMesh> {
         Status status = mesh.move_vertices(points);
         if (!status) return status.error();
         return mesh;
       }));
-  return {std::move(made), handle.side};
+  return {made, handle.side};
 }
 
 /// Beyond this size squares of coordinates could overflow.
