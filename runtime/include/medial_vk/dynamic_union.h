@@ -55,8 +55,8 @@ class DynamicUnion {
   /// For several moves of which only the end counts: shift() is move(), but leaves the power cells that it alters to
   /// settle(), which computes each of them once, on all threads. Until then, only the functions of this group and
   /// slots(), holds(), size() and ball() may be called. Nothing of it can be undone; after settle(), changed() names
-  /// all the slots. Errors: shift(): kUsage as for move(), nothing has changed; settle(): kOutOfMemory, it can be
-  /// repeated.
+  /// every slot whose cell they have altered. Errors: shift(): kUsage as for move(), nothing has changed; settle():
+  /// kOutOfMemory, it can be repeated.
   Status shift(std::uint32_t slot, const Ball& to);
   Status settle();
   /// The exposure that the ball would have after this move, or has where it is, in the time of one power cell. Errors:

@@ -238,6 +238,24 @@ TEST(DynamicUnion, ShiftsAreMovesOnceSettled) {
   }
 }
 
+/// An exposure that was measured among others than are there now leaves nothing behind.
+TEST(DynamicUnion, ShiftsDoNotKeepCellsOfAnEarlierState) {
+  DynamicUnion balls = std::move(DynamicUnion::build(4, 7)).value();
+  for (const double x : {0.0, 5.0}) ASSERT_TRUE(balls.add({{x, 0, 0}, 1}).ok());
+  const Ball to = {{0.1, 0, 0}, 1};
+  ASSERT_TRUE(balls.exposure_at(0, to).ok());
+  ASSERT_TRUE(balls.shift(1, {{1.1, 0, 0}, 1}).ok());
+  ASSERT_TRUE(balls.shift(0, to).ok());
+  ASSERT_TRUE(balls.settle().ok());
+  EXPECT_NEAR(balls.volume(), volume_at_once(balls), kTolerance);
+  ASSERT_TRUE(balls.add({{0, 0.5, 0}, 1}).ok());
+  ASSERT_TRUE(balls.exposure_at(0, {{0, 0, 0}, 1}).ok());
+  balls.undo();
+  ASSERT_TRUE(balls.shift(0, {{0, 0, 0}, 1}).ok());
+  ASSERT_TRUE(balls.settle().ok());
+  EXPECT_NEAR(balls.volume(), volume_at_once(balls), kTolerance);
+}
+
 TEST(DynamicUnion, ShiftsNameTheirSlotsAndWaitForSettle) {
   DynamicUnion balls = std::move(DynamicUnion::build(4, 3)).value();
   for (const double x : {0.0, 0.5, 2.5}) ASSERT_TRUE(balls.add({{x, 0, 0}, 0.5}).ok());

@@ -257,9 +257,9 @@ TEST(Candidates, ThatALatticeSelectsHaveExactGains) {
     Candidates candidates;
     candidates.add(all);
     const double from = beside ? 5 : 0;
-    Coverage coverage({from, from, from}, {from + 1, from + 1, from + 1});
+    Coverage coverage({from - 0.2, from - 0.2, from - 0.2}, {from + 1.2, from + 1.2, from + 1.2});
     coverage.divide(1e5, {});
-    const auto cell = coverage.cell();
+    std::vector<Ball> chosen;
     for (int n = 0; n < 40; ++n) {
       double best = 0;
       for (const Ball& ball : all) best = std::max(best, balls.gain(ball).value());
@@ -271,9 +271,13 @@ TEST(Candidates, ThatALatticeSelectsHaveExactGains) {
         EXPECT_EQ(choice->gain, best);
       }
       // The best one has a volume of some hundred points, the error of which is that of the points next to the sphere.
-      EXPECT_GE(choice->gain + 4 * std::numbers::pi * 0.2 * 0.2 * std::sqrt(3.0) * std::cbrt(cell), best);
+      EXPECT_GE(choice->gain + 4 * std::numbers::pi * 0.2 * 0.2 * std::sqrt(3.0) * std::cbrt(coverage.cell()), best);
       ASSERT_TRUE(balls.add(choice->ball).ok());
       coverage.add(choice->ball);
+      chosen.push_back(choice->ball);
+      if (n != 15) continue;
+      coverage.divide(3e6, chosen);
+      candidates.forget_estimates();
     }
   }
 }

@@ -142,6 +142,7 @@ std::uint32_t ChangingUnion::add(const Ball& ball) {
 }
 
 void ChangingUnion::undo() {
+  tried_.ball = kNoBall;
   if (last_.ball == kNoBall) return;
   set_ball(last_.ball, last_.given_before);
   cells_.undo();
@@ -252,6 +253,7 @@ void ChangingUnion::shift(std::uint32_t slot, const Ball& to) {
   }
   is_due_[i] = true;
   if (tried_.ball == i && is_same(tried_.to, to)) keep_tried();
+  tried_.ball = kNoBall;  // its cell was among the others as they were
 }
 
 /// Its cell among the others as they are now.

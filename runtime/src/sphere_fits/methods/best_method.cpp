@@ -191,11 +191,12 @@ class Placing {
     return {};
   }
 
-  /// The lattice becomes finer as gains become smaller.
+  /// The smaller gains become, the finer the lattice, once there are some balls.
   void divide_coverage() {
     const double of_ball = balls_.size() < kMany ? kPointsOfBall : kPointsOfOneOfMany;
     const double points = std::max(kLeastPoints, of_ball * static_cast<double>(balls_.size()));
     coverage_.divide(points / balls_.volume(), all_balls());
+    candidates_.forget_estimates();
   }
 
   /// Where many balls are equally good, as in a plate that is wide for its thickness, distance decides.
@@ -282,6 +283,7 @@ class Placing {
     if (options_.contract != SphereContract::kBalanced && balls_.volume() < before.volume) {
       for (std::size_t k = 0; k < around.size(); ++k) {
         if (Status status = balls_.shift(around[k], before.balls[k]); !status.ok()) return status;
+        steps_[around[k]] /= 2;
       }
       return settle();
     }

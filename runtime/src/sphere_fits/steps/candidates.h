@@ -15,7 +15,7 @@ namespace medial_vk {
 /// The gain of a ball never grows while others are added (volume is submodular), so an old gain bounds the new one, and
 /// few gains are recomputed for each choice (M. Minoux, "Accelerated greedy algorithms", 1978). If balls of the union
 /// have moved meanwhile, old gains are estimates: the choice may then miss the best by the volume that a move has
-/// uncovered. So are gains by the points of a lattice, which select the few that are measured exactly.
+/// uncovered. Gains by the points of a lattice are estimates, too; they select the few that are measured exactly.
 class Candidates {
  public:
   void add(std::span<const Ball> balls);
@@ -27,6 +27,8 @@ class Candidates {
   /// The best few by the points of a lattice that the balls of the union hold, for the next take_best(). Throws
   /// std::bad_alloc.
   void find_promising(const Coverage& coverage);
+  /// For another lattice: gains that have been measured bound the candidates again, or their volumes.
+  void forget_estimates() { queue_ = by_bounds(); }
   /// The ball with the greatest gain, which is then no candidate any more; no value if none has a gain. Without a call
   /// of find_promising() for it, or if no promising ball has a gain, all are measured exactly as far as needed. Error:
   /// kOutOfMemory.

@@ -52,17 +52,24 @@ std::uint64_t bits(std::size_t begin, std::size_t end) {
 
 }  // namespace
 
+Coverage::Coverage(const Point& lower, const Point& upper) {
+  const Point sides = upper - lower;
+  std::stable_sort(axes_.begin(), axes_.end(), [&](std::size_t a, std::size_t b) { return sides[a] > sides[b]; });
+  for (std::size_t k = 0; k < 3; ++k) {
+    lower_[k] = lower[axes_[k]];
+    sides_[k] = sides[axes_[k]];
+  }
+}
+
 void Coverage::divide(double density, std::span<const Ball> balls) {
-  double longest = 0;
-  for (const double side : upper_ - lower_) longest = std::max(longest, side);
-  spacing_ = std::max(0x1p-20 * longest, 1 / std::cbrt(density));  // finite steps, whatever the density
+  spacing_ = std::max(0x1p-20 * sides_[0], 1 / std::cbrt(density));  // finite steps, whatever the density
   const auto points = [&] {
     double product = 1;
-    for (const double side : upper_ - lower_) product *= std::floor(side / spacing_) + 1;
+    for (const double side : sides_) product *= std::floor(side / spacing_) + 1;
     return product;
   };
   while (!(points() <= kMostPoints)) spacing_ *= 1.1;
-  for (std::size_t k = 0; k < 3; ++k) size_[k] = static_cast<std::size_t>((upper_[k] - lower_[k]) / spacing_) + 1;
+  for (std::size_t k = 0; k < 3; ++k) size_[k] = static_cast<std::size_t>(sides_[k] / spacing_) + 1;
   words_ = (size_[0] + kBits - 1) / kBits;
   counts_.assign(size_[0] * size_[1] * size_[2], 0);
   free_.assign(words_ * size_[1] * size_[2], ~std::uint64_t{0});
@@ -72,7 +79,8 @@ void Coverage::divide(double density, std::span<const Ball> balls) {
 /// Calls visit(row, range) for the rows with points of the ball.
 template <class Visit>
 void Coverage::for_each_row(const Ball& ball, const Visit& visit) const {
-  const Point middle = (1 / spacing_) * (ball.centre - lower_);
+  Point middle{};
+  for (std::size_t k = 0; k < 3; ++k) middle[k] = (ball.centre[axes_[k]] - lower_[k]) / spacing_;
   const double radius = ball.radius / spacing_;
   const auto [bottom, top] = integers_around(middle[2], radius, size_[2]);
   Rows rows;

@@ -12,10 +12,10 @@
 namespace medial_vk {
 
 /// A cubic lattice in a box. The points of a ball follow from the ball alone, so that what comes and goes cancels.
-/// Queries may come from several threads at once.
+/// Several threads may query it at once, but not beside a change.
 class Coverage {
  public:
-  Coverage(const Point& lower, const Point& upper) : lower_(lower), upper_(upper) {}
+  Coverage(const Point& lower, const Point& upper);
 
   /// Another lattice, with so many points per unit of volume (mesh units cubed), or fewer where the box would hold more
   /// than 2^25. `balls`: all that hold points from now on, at most 65,535. Throws std::bad_alloc.
@@ -39,9 +39,10 @@ class Coverage {
   template <class Visit>
   void for_each_word(std::size_t row, const Range& points, const Visit& visit) const;
 
-  Point lower_, upper_;
+  std::array<std::size_t, 3> axes_ = {0, 1, 2};  // of the box, the longest first: rows are long
+  Point lower_{}, sides_{};                      // by axes_, as is what follows
   double spacing_ = 0;
-  std::array<std::size_t, 3> size_{};  // points along x, y, z; x varies fastest
+  std::array<std::size_t, 3> size_{};  // points; the first coordinate varies fastest
   std::vector<std::uint16_t> counts_;
   std::size_t words_ = 0;            // of each row in free_
   std::vector<std::uint64_t> free_;  // a bit for each point that no ball holds

@@ -1,5 +1,6 @@
 #include "sphere_fits/steps/maximal_ball.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/point_ops.h"
@@ -54,7 +55,8 @@ Ball maximal_ball(const Solid& solid, const Point& inside, std::vector<std::uint
   const double distance = std::sqrt(contact.squared_distance);
   const Ball around = {inside, distance - solid.rounding()};
   if (around.radius <= 0) return around;
-  triangles.push_back(contact.triangle);
+  if (std::find(triangles.begin(), triangles.end(), contact.triangle) == triangles.end())
+    triangles.push_back(contact.triangle);
   const Point away = (1 / distance) * (inside - contact.point);
   double radius = solid.diagonal();
   for (int step = 0; step < kMostSteps; ++step) {

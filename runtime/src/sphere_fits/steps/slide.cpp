@@ -74,7 +74,9 @@ Point Slider::direction(const Ball& ball, const Exposure& exposure, double step,
   constexpr std::size_t kMostContacts = 32;
   if (!(exposure.area > 0)) return {};
   contacts_.clear();
-  for (const std::uint32_t triangle : touched) add_contact(ball, triangle);
+  for (const std::uint32_t triangle : touched) {
+    if (!has_contact(triangle)) add_contact(ball, triangle);
+  }
   const std::uint32_t nearest = closest_with(solid_, ball.centre, touched).triangle;
   if (!has_contact(nearest) && !add_contact(ball, nearest)) return {};
   // The ascent is seldom longer than a third of the area: such a step would have the full length.
