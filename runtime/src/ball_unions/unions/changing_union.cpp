@@ -314,8 +314,8 @@ void ChangingUnion::settle() {
     is_due_[j] = false;
   });
   note_changed();
-  sort_unique(
-      changed_);  // the threads take them in any order, and the cell of a ball may have been computed repeatedly
+  // Threads take cells in any order, and that of a ball may have been computed more than once.
+  sort_unique(changed_);
   is_shifting_ = false;
 }
 
