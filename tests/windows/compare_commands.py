@@ -306,12 +306,13 @@ def check_batch_lock_and_resume():
 
 
 def check_interrupt():
-    """Ctrl-C ends with exit code 130, and leaves the previous file and nothing else."""
+    """Ctrl-C ends with exit code 130, and leaves the previous file and nothing else. It comes two seconds after the start,
+    and each of these runs takes much longer."""
     for name, words in {
-        "analysis": ["turtle.obj", "--resolution", "400", "-o", "out.ply"],
-        "reference": ["turtle.obj", "--resolution", "120", "--backend", "cpu", "-o", "out.ply"],
-        "spheres": ["spheres", "turtle.obj", "--count", "200", "-o", "out.csv"],
-        "batch": ["batch", "turtle.obj", "-o", "results", "--resolution", "400"],
+        "analysis": ["turtle.obj", "--resolution", "1200", "-o", "out.ply"],
+        "reference": ["turtle.obj", "--resolution", "300", "--backend", "cpu", "-o", "out.ply"],
+        "spheres": ["spheres", "turtle.obj", "--count", "4000", "-o", "out.csv"],
+        "batch": ["batch", "turtle.obj", "-o", "results", "--resolution", "1200"],
     }.items():
         folder = WORK / "interrupt" / name
         shutil.copytree(WORK / "inputs", folder)
