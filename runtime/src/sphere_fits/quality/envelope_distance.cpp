@@ -1,6 +1,9 @@
 #include "sphere_fits/quality/envelope_distance.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <new>
 
 #include "base/host_memory.h"
@@ -15,6 +18,12 @@ constexpr double kNone = -std::numeric_limits<double>::infinity();
 struct Part {
   std::array<Point, 3> corner;
 
+  /// Of length 1, or 0 without an area.
+  Point normal() const {
+    const Point twice = cross(corner[1] - corner[0], corner[2] - corner[0]);
+    const double size = length(twice);
+    return size > 0 ? (1 / size) * twice : Point{};
+  }
   Point middle() const { return (1.0 / 3) * (corner[0] + (corner[1] + corner[2])); }
   double reach(const Point& from) const {
     return std::max({length(corner[0] - from), length(corner[1] - from), length(corner[2] - from)});
@@ -211,9 +220,33 @@ class Measure {
     return greatest;
   }
 
+  /// The greatest distance to the envelope of those points of the boundary that are the nearest ones to its vertices. A
+  /// vertex is no nearer to its point than the envelope, so most distances need not be computed.
+  double greatest_below_vertices() const {
+    constexpr std::size_t kBlock = 64;
+    struct Foot {
+      Point at;
+      double most;
+    };
+    const std::vector<EnvelopeVertex>& vertices = envelope_.vertices();
+    std::vector<Foot> feet(vertices.size());
+    for_all(vertices.size(), 16, limits_.threads, [&](std::size_t i) {
+      const BvhHit hit = solid_.closest(vertices[i].at);
+      feet[i] = {hit.point, std::sqrt(hit.squared_distance)};
+    });
+    std::stable_sort(feet.begin(), feet.end(), [](const Foot& a, const Foot& b) { return a.most > b.most; });
+    double greatest = 0;
+    for (std::size_t begin = 0; begin < feet.size() && feet[begin].most > greatest; begin += kBlock) {
+      std::array<double, kBlock> distances{};
+      for_all(std::min(kBlock, feet.size() - begin), 1, limits_.threads,
+              [&](std::size_t i) { distances[i] = envelope_.distance(feet[begin + i].at, greatest); });
+      greatest = std::max(greatest, *std::max_element(distances.begin(), distances.end()));
+    }
+    return greatest;
+  }
+
   Bounds boundary_to_envelope(double lower) const {
-    lower = std::max(lower,
-                     greatest_at_vertices([&](const Point& p) { return envelope_.distance(solid_.closest(p).point); }));
+    lower = std::max(lower, greatest_below_vertices());
     const auto evaluate = [&](const Part& part, double known) -> CellBounds {
       const Point middle = part.middle();
       const double reach = part.reach(middle);
@@ -223,6 +256,8 @@ class Measure {
         return {nearest.distance, nearest.distance + reach};
       }
       const double enough = known + limits_.tolerance - reach;
+      const double outward = envelope_.distance_along(middle, part.normal(), enough);
+      if (outward <= enough) return {kNone, outward + reach};
       const double distance = envelope_.distance(middle, enough);
       return {distance > enough ? distance : kNone, distance + reach};
     };
@@ -241,7 +276,7 @@ class Measure {
       cube.ball = nearest.ball;
       if (std::fabs(nearest.distance) > reach + slack_) return {};
       const double before = length(cube.centre - cube.at_boundary);
-      const BvhHit hit = solid_.bvh().closest(cube.centre, before);
+      const BvhHit hit = solid_.closest(cube.centre, before);
       if (hit.triangle != BvhHit().triangle) cube.at_boundary = hit.point;
       const double distance = std::min(before, std::sqrt(hit.squared_distance));
       CellBounds cell = {kNone, cube.farthest(cube.at_boundary)};
