@@ -8,33 +8,12 @@
 
 #include "base/host_memory.h"
 #include "base/point_ops.h"
+#include "sphere_fits/quality/triangle_part.h"
 
 namespace medial_vk {
 namespace {
 
 constexpr double kNone = -std::numeric_limits<double>::infinity();
-
-/// A triangle or a part of one.
-struct Part {
-  std::array<Point, 3> corner;
-
-  /// Of length 1, or 0 without an area.
-  Point normal() const {
-    const Point twice = cross(corner[1] - corner[0], corner[2] - corner[0]);
-    const double size = length(twice);
-    return size > 0 ? (1 / size) * twice : Point{};
-  }
-  Point middle() const { return (1.0 / 3) * (corner[0] + (corner[1] + corner[2])); }
-  double reach(const Point& from) const {
-    return std::max({length(corner[0] - from), length(corner[1] - from), length(corner[2] - from)});
-  }
-};
-
-void split_part(const Part& part, std::vector<Part>& parts) {
-  const auto& [a, b, c] = part.corner;
-  const Point ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
-  parts.insert(parts.end(), {{{a, ab, ca}}, {{ab, b, bc}}, {{ca, bc, c}}, {{ab, bc, ca}}});
-}
 
 struct Cube {
   Point centre;
@@ -121,8 +100,12 @@ class Measure {
     return d;
   }
 
+  Bounds between_surfaces() const {
+    return greater(boundary_to_envelope(boundary_to_balls().lower), envelope_to_boundary());
+  }
+
   Bounds boundary_to_balls() const {
-    const auto evaluate = [&](const Part& part, double) -> CellBounds {
+    const auto evaluate = [&](const TrianglePart& part, double) -> CellBounds {
       const Point middle = part.middle();
       const NearestBall nearest = tree_.nearest(middle);
       return {nearest.distance, bound_over(part, middle, nearest)};
@@ -136,7 +119,7 @@ class Measure {
   }
 
   /// A ball's |p - c| - r is convex: in the part, it is at most the greatest of its values at corners.
-  double bound_over(const Part& part, const Point& middle, const NearestBall& nearest) const {
+  double bound_over(const TrianglePart& part, const Point& middle, const NearestBall& nearest) const {
     const Ball& ball = tree_.balls()[nearest.ball];
     return std::min(nearest.distance + part.reach(middle), part.reach(ball.centre) - ball.radius);
   }
@@ -247,7 +230,7 @@ class Measure {
 
   Bounds boundary_to_envelope(double lower) const {
     lower = std::max(lower, greatest_below_vertices());
-    const auto evaluate = [&](const Part& part, double known) -> CellBounds {
+    const auto evaluate = [&](const TrianglePart& part, double known) -> CellBounds {
       const Point middle = part.middle();
       const double reach = part.reach(middle);
       const NearestBall nearest = tree_.nearest(middle);
@@ -297,7 +280,7 @@ class Measure {
   const EnvelopeOptions& options_;
   double slack_;
   SearchLimits limits_;
-  std::vector<Part> parts_;
+  std::vector<TrianglePart> parts_;
 };
 
 }  // namespace
@@ -311,6 +294,20 @@ namespace {
 Error stopped() { return {ErrorCode::kInterrupted, "interrupted"}; }
 
 Error no_memory() { return out_of_memory("measuring the distance of the balls from the solid"); }
+
+template <class Function>
+Result<Bounds> measured(const Solid& solid, std::span<const Ball> balls, const EnvelopeOptions& options,
+                        Function function) {
+  const Result<Envelope> envelope = Envelope::build(balls, options.threads.count);
+  if (!envelope) return envelope.error();
+  try {
+    return function(Measure(solid, envelope.value(), options));
+  } catch (const Stopped&) {
+    return stopped();
+  } catch (const std::bad_alloc&) {
+    return no_memory();
+  }
+}
 
 }  // namespace
 
@@ -327,15 +324,12 @@ Result<EnvelopeDistances> measure_distances(const Solid& solid, const Envelope& 
 }
 
 Result<Bounds> measure_greatest_gap(const Solid& solid, std::span<const Ball> balls, const EnvelopeOptions& options) {
-  const Result<Envelope> envelope = Envelope::build(balls, options.threads.count);
-  if (!envelope) return envelope.error();
-  try {
-    return Measure(solid, envelope.value(), options).boundary_to_balls();
-  } catch (const Stopped&) {
-    return stopped();
-  } catch (const std::bad_alloc&) {
-    return no_memory();
-  }
+  return measured(solid, balls, options, [](const Measure& measure) { return measure.boundary_to_balls(); });
+}
+
+Result<Bounds> measure_surface_distance(const Solid& solid, std::span<const Ball> balls,
+                                        const EnvelopeOptions& options) {
+  return measured(solid, balls, options, [](const Measure& measure) { return measure.between_surfaces(); });
 }
 
 }  // namespace medial_vk
