@@ -103,6 +103,7 @@ def fit_parts(
     contract: Literal["inside", "cover", "balanced"] = "inside",
     error: float = 0.0,
     max_gap: float = 0.0,
+    max_distance: float = 0.0,
     method: Literal["best", "source"] = "best",
     resolution: int = 0,
     object_angle: float = 0.6,
@@ -121,8 +122,8 @@ def fit_parts(
         count: Greatest number of balls of each part; without effect beside one of the next two.
         count_per_link: Greatest number of balls of each link, for its parts together.
         total: Greatest number of balls of all parts together.
-        contract, error, max_gap, method, resolution, object_angle, levels, balls_only, for_distances: As of
-            ``fit_spheres()``, for each part.
+        contract, error, max_gap, max_distance, method, resolution, object_angle, levels, balls_only, for_distances: As
+            of ``fit_spheres()``, for each part.
         threads: Of the host, 0: one per core. The result does not depend on it.
         context: Where candidates are computed; None: ``default_context()``.
         progress: A function of the stage's name and its share, or True for a bar.
@@ -144,6 +145,7 @@ def fit_parts(
         "count": count,
         "error": error,
         "max_gap": max_gap,
+        "max_distance": max_distance,
         "resolution": resolution,
         "object_angle": object_angle,
         "levels": levels,

@@ -160,6 +160,7 @@ def fit_spheres(
     contract: Literal["inside", "cover", "balanced"] = "inside",
     error: float = 0.0,
     max_gap: float = 0.0,
+    max_distance: float = 0.0,
     method: Literal["best", "source"] = "best",
     resolution: int = 0,
     object_angle: float = 0.6,
@@ -181,6 +182,8 @@ def fit_spheres(
             "balanced" (no claim; the volume between balls and solid is small).
         error: Greatest volume error as a share of the solid's volume, in [0, 1); 0: no such goal.
         max_gap: Greatest distance from the boundary to the balls, in units of the mesh; 0: no such goal.
+        max_distance: Contract "balanced": greatest Hausdorff distance of the boundary and the surface of the balls, in
+            units of the mesh; 0: no such bound. With ``count`` alone, a bound for so many balls, else a goal.
         method: "best", or "source": one ball per voxel (Section 7.3.2 of the source).
         resolution: Of the search for candidates; 0: derived from the count.
         object_angle: Of method "source", radians.
@@ -203,6 +206,7 @@ def fit_spheres(
         "count": count,
         "error": error,
         "max_gap": max_gap,
+        "max_distance": max_distance,
         "resolution": resolution,
         "object_angle": object_angle,
         "levels": levels,

@@ -54,6 +54,7 @@ SphereFitOptions read_fit_options(Options& options) {
   options.read("count", made.count);
   options.read("error", made.error);
   options.read("max_gap", made.max_gap);
+  options.read("max_distance", made.max_distance);
   options.read("resolution", made.resolution);
   options.read("object_angle", made.object_angle);
   options.read("levels", made.levels);

@@ -41,6 +41,10 @@ struct SphereFitOptions {
   /// kBalanced: the sum of both, by an estimate. In [0, 1); 0: no such goal.
   double error = 0;
   double max_gap = 0;  ///< Greatest distance from the boundary to the balls, mesh units; 0: no such goal.
+  /// kBalanced: the greatest Hausdorff distance of the boundary and the surface of the balls, mesh units; 0: no such
+  /// bound. With `count` alone, a bound for so many balls (kUsage if they cannot keep it), else a goal. By the method
+  /// best; at least 1e-4 of the diagonal of the solid's box.
+  double max_distance = 0;
   /// The resolution of the extraction of candidate points, as in ExtractionOptions; 0: derived from the count.
   std::uint32_t resolution = 0;
   double object_angle = 0.6;  ///< Of method source.

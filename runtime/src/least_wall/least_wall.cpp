@@ -146,7 +146,7 @@ Result<LeastWall> measure_least_wall(const IndexedMesh& mesh, const LeastWallOpt
   return catch_out_of_memory("searching for the least wall", [&]() -> Result<LeastWall> {
     Result<Solid> solid = Solid::build(mesh);
     if (!solid) return solid.error();
-    const WideTree tree(solid.value().bvh());
+    const WideTree& tree = solid.value().wide_tree();
     const std::vector<SpokeCone> normals = normals_of(solid.value());
     try {
       const WallCell whole = whole_of(solid.value().bvh(), options.object_angle);

@@ -46,6 +46,7 @@ double distance_rounding(const IndexedMesh& mesh) { return rounding_in_box(mesh.
 Solid::Solid(const IndexedMesh& mesh, Bvh bvh)
     : mesh_(mesh),
       bvh_(std::move(bvh)),
+      wide_(bvh_),
       rounding_(distance_rounding(bvh_)),
       triangles_(std::make_unique<TriangleTree>(mesh.prepared().mesh)),
       winding_(std::make_unique<WindingTree>(*triangles_)) {}
@@ -66,7 +67,7 @@ Result<Solid> Solid::build(const IndexedMesh& mesh) {
   return solid;
 }
 
-double Solid::distance(const Point& p) const { return std::sqrt(bvh().closest(p).squared_distance); }
+double Solid::distance(const Point& p) const { return std::sqrt(closest(p).squared_distance); }
 
 std::optional<std::int64_t> Solid::whole_number(const Point& p) const {
   return closing_ ? number_by_rays({&bvh_, &closing_->bvh()}, p) : number_by_rays({&bvh_}, p);

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 
+#include "bvh/wide_tree.h"
 #include "medial_vk/bvh.h"
 #include "medial_vk/indexed_mesh.h"
 #include "medial_vk/mesh.h"
@@ -33,8 +35,11 @@ class Solid {
   const IndexedMesh& indexed() const { return mesh_; }
   const PreparedMesh& mesh() const { return mesh_.prepared(); }
   const Bvh& bvh() const { return bvh_; }
-  /// Nearest point of the boundary.
-  BvhHit closest(const Point& p) const { return bvh().closest(p); }
+  const WideTree& wide_tree() const { return wide_; }
+  /// Nearest point of the boundary within `bound`. Of triangles that are equally near up to rounding, any may be found.
+  BvhHit closest(const Point& p, double bound = std::numeric_limits<double>::infinity()) const {
+    return wide_.closest(bvh_, p, bound);
+  }
   /// The distance to the boundary, within rounding() of the exact one.
   double distance(const Point& p) const;
   double rounding() const { return rounding_; }
@@ -70,6 +75,7 @@ class Solid {
 
   IndexedMesh mesh_;
   Bvh bvh_;
+  WideTree wide_;
   double rounding_;
   std::unique_ptr<TriangleTree> triangles_;
   std::unique_ptr<WindingTree> winding_;

@@ -66,7 +66,7 @@ Result<std::vector<Thickness>> measure_thickness(const IndexedMesh& mesh, std::s
   return catch_out_of_memory("measuring thickness", [&]() -> Result<std::vector<Thickness>> {
     Result<Solid> solid = Solid::build(mesh);
     if (!solid) return solid.error();
-    const WideTree tree(solid.value().bvh());
+    const WideTree& tree = solid.value().wide_tree();
     ThicknessField field = {solid.value(), tree, options};
     if (options.delta == 0) field.options.delta = mesh.longest_side() / 2000;
     if (options.limit == 0) field.options.limit = mesh.longest_side();

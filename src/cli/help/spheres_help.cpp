@@ -30,6 +30,9 @@ How many spheres (goals that are given together must all be met):
                         (cover: add so much; balanced: both), between 0 and 1
       --max-gap G       as many as leave no point of the surface farther than G
                         from the spheres, in units of the mesh (robot: metres)
+      --max-distance D  of --contract balanced: the surfaces of spheres and
+                        solid are nowhere farther apart than D, in either
+                        direction; with --count a bound, alone as many as needed
       --levels          also N/2, N/4 ... 1 of them, to choose from at run time
                         (csv, json, foam)
 

@@ -48,6 +48,7 @@ void declare(CLI::App& app, SpheresOptions& options, Given& given) {
   add.whole("--total", 1, kMostSpheres, " spheres", options.total);
   add.real("--error", {0, 1, false}, " of the volume", fit.error);
   add.real("--max-gap", {0, 1e30, false}, " (units of the mesh)", fit.max_gap);
+  add.real("--max-distance", {0, 1e30, false}, " (units of the mesh)", fit.max_distance);
   add.whole("--resolution", 1, 4096, " voxels", fit.resolution);
   add.choice<SphereMethod>("--method", {{"best", SphereMethod::kBest}, {"source", SphereMethod::kSource}}, fit.method);
   add.choice<std::optional<SphereContract>>("--contract",
@@ -124,6 +125,9 @@ Status check_goals(const SpheresOptions& options) {
   if (fit.contract == SphereContract::kCover && fit.max_gap > 0) {
     return usage_error("--max-gap: spheres that cover leave no gap; use --error E, or a number of spheres");
   }
+  if (fit.max_distance > 0 && (fit.contract != SphereContract::kBalanced || fit.method == SphereMethod::kSource)) {
+    return usage_error("--max-distance is about balanced spheres: use it with --contract balanced and --method best");
+  }
   const bool by_source = fit.method == SphereMethod::kSource && fit.contract != SphereContract::kInside;
   if (by_source && (fit.error > 0 || fit.max_gap > 0)) {
     return usage_error(
@@ -131,7 +135,7 @@ Status check_goals(const SpheresOptions& options) {
   }
   const bool by_resolution = fit.method == SphereMethod::kSource && fit.resolution > 0;
   const bool any = fit.count > 0 || options.count_per_link > 0 || options.total > 0 || fit.error > 0 ||
-                   fit.max_gap > 0 || by_resolution;
+                   fit.max_gap > 0 || fit.max_distance > 0 || by_resolution;
   if (any) return {};
   return usage_error(options.is_robot ? "no goal is given: use --count-per-link N, --total N, --error E or --max-gap G"
                      : options.both   ? "no goal is given: use --count N or --error E"

@@ -67,6 +67,7 @@ constexpr ParameterWords kParameterWords[] = {
     library_only("links"),
     library_only("lower"),
     {"margin", "--margin", {}, {}, {}, {}, {}, {}, "--margin", "--margin"},
+    {"max_distance", {}, "--max-distance", "--max-distance"},
     {"max_gap", {}, "--max-gap", "--max-gap"},
     {"medial_mesh", "--medial-mesh", {}, {}},
     {"memory_budget",

@@ -25,6 +25,7 @@ Json goals_json(const FitsRecord& record) {
           {"total", given(record.total)},
           {"error", given(record.spheres.error)},
           {"max_gap", given(record.spheres.max_gap)},
+          {"max_distance", given(record.spheres.max_distance)},
           {"resolution", given(record.spheres.resolution)}};
 }
 

@@ -37,6 +37,7 @@ class Cover {
   std::vector<Ball> certified() const;
 
  private:
+  bool is_many() const;
   double measure() const;
   void keep();
   void improve(int rounds, double from, double until);

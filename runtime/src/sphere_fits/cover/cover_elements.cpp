@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <type_traits>
+#include <utility>
 
 #include "base/point_ops.h"
 
@@ -89,6 +91,9 @@ void CoverElements::add(std::span<const Point> points) {
   points_.insert(points_.end(), points.begin(), points.end());
   first_.push_back(static_cast<std::uint32_t>(points_.size()));
   middle_.push_back(middle);
+  double squared = 0;
+  for (const Point& p : points) squared = std::max(squared, dot(p - middle, p - middle));
+  extent_.push_back(std::sqrt(squared));
   const Point twice = points.size() == 3 ? cross(points[1] - points[0], points[2] - points[0]) : Point{};
   const double size = length(twice);
   area_.push_back(size / 2);
@@ -113,6 +118,7 @@ void CoverElements::refine(const std::vector<bool>& which) {
   points_.clear();
   first_.assign(1, 0);
   middle_.clear();
+  extent_.clear();
   area_.clear();
   normal_.clear();
   distance_.clear();
@@ -135,15 +141,17 @@ void CoverElements::refine(const std::vector<bool>& which) {
 }
 
 void CoverElements::arrange() {
-  order_.resize(size());
-  std::iota(order_.begin(), order_.end(), 0u);
+  std::vector<std::uint32_t> order(size());
+  std::iota(order.begin(), order.end(), 0u);
   boxes_.clear();
-  if (!order_.empty()) arrange(0, static_cast<std::uint32_t>(size()));
+  if (!order.empty()) arrange(0, static_cast<std::uint32_t>(size()), order);
+  reorder(order);
+  arranged_ = size();
 }
 
 /// Recursive halves, by the middle along the longest side of the box.
-void CoverElements::arrange(std::uint32_t first, std::uint32_t count) {
-  const auto begin = order_.begin() + first, end = begin + count;
+void CoverElements::arrange(std::uint32_t first, std::uint32_t count, std::vector<std::uint32_t>& order) {
+  const auto begin = order.begin() + first, end = begin + count;
   const std::size_t position = boxes_.size();
   Box box = {middle_[*begin], middle_[*begin], first, count, 0};
   for (auto at = begin; at != end; ++at) {
@@ -161,10 +169,52 @@ void CoverElements::arrange(std::uint32_t first, std::uint32_t count) {
       return middle_[a][axis] != middle_[b][axis] ? middle_[a][axis] < middle_[b][axis] : a < b;
     });
     boxes_[position].count = 0;
-    arrange(first, half);
-    arrange(first + half, count - half);
+    arrange(first, half, order);
+    arrange(first + half, count - half, order);
   }
   boxes_[position].next = static_cast<std::uint32_t>(boxes_.size());
+}
+
+void CoverElements::reorder(const std::vector<std::uint32_t>& order) {
+  const auto reordered = [&](auto& values) {
+    std::remove_reference_t<decltype(values)> next;
+    next.reserve(order.size());
+    for (const std::uint32_t element : order) next.push_back(values[element]);
+    values = std::move(next);
+  };
+  std::vector<Point> all;
+  std::vector<std::uint32_t> first = {0};
+  all.reserve(points_.size());
+  first.reserve(first_.size());
+  for (const std::uint32_t element : order) {
+    const std::span<const Point> own = points(element);
+    all.insert(all.end(), own.begin(), own.end());
+    first.push_back(static_cast<std::uint32_t>(all.size()));
+  }
+  points_ = std::move(all);
+  first_ = std::move(first);
+  reordered(middle_);
+  reordered(extent_);
+  reordered(area_);
+  reordered(normal_);
+  reordered(distance_);
+}
+
+bool CoverElements::is_in(const Ball& ball, std::uint32_t element) const {
+  constexpr double kSure = 1 - 1e-12;  // beyond the rounding of these lengths
+  const double sure = kSure * ball.radius - extent_[element];
+  const Point d = middle_[element] - ball.centre;
+  if (sure > 0 && dot(d, d) <= sure * sure) return true;
+  return needed(ball.centre, element) <= ball.radius;
+}
+
+double CoverElements::needed(const Point& centre, std::span<const std::uint32_t> elements) const {
+  double radius = 0;
+  for (const std::uint32_t element : elements) {
+    if (length(middle_[element] - centre) + extent_[element] >= radius)
+      radius = std::max(radius, needed(centre, element));
+  }
+  return radius;
 }
 
 double CoverElements::needed(const Point& centre, std::uint32_t element) const {
@@ -194,10 +244,10 @@ void CoverElements::gather(const Ball& ball, std::vector<std::uint32_t>& found) 
       position = box.next;
       continue;
     }
-    for (std::uint32_t k = box.first; k < box.first + box.count; ++k) take(order_[k]);
+    for (std::uint32_t element = box.first; element < box.first + box.count; ++element) take(element);
     ++position;
   }
-  for (auto element = static_cast<std::uint32_t>(order_.size()); element < size(); ++element) take(element);
+  for (auto element = static_cast<std::uint32_t>(arranged_); element < size(); ++element) take(element);
 }
 
 }  // namespace medial_vk

@@ -31,8 +31,12 @@ class CoverElements {
   const Point& normal(std::uint32_t element) const { return normal_[element]; }
   /// From a probe to its point outside; zero for other elements.
   double distance(std::uint32_t element) const { return distance_[element]; }
+  /// True if the ball holds the element.
+  bool is_in(const Ball& ball, std::uint32_t element) const;
   /// The least radius around a centre that holds the element.
   double needed(const Point& centre, std::uint32_t element) const;
+  /// The least radius around a centre that holds all these elements; 0 of none.
+  double needed(const Point& centre, std::span<const std::uint32_t> elements) const;
   /// Indices of all elements whose middles are in the ball; a ball that holds an element holds its middle.
   void gather(const Ball& ball, std::vector<std::uint32_t>& found) const;
 
@@ -47,24 +51,27 @@ class CoverElements {
  private:
   void add_triangle(const Point& a, const Point& b, const Point& c, double longest, int depth);
   void add_cells(const Solid& solid, const Threads& threads);
-  /// Builds a tree of boxes of neighbours, so that few boxes exclude most elements for a ball.
+  /// Builds a tree of boxes of neighbours, so that few boxes exclude most elements for a ball, and orders the elements
+  /// by its leaves.
   void arrange();
-  void arrange(std::uint32_t first, std::uint32_t count);
+  void arrange(std::uint32_t first, std::uint32_t count, std::vector<std::uint32_t>& order);
+  void reorder(const std::vector<std::uint32_t>& order);
 
   std::vector<Point> points_;
   std::vector<std::uint32_t> first_ = {0};
   struct Box {
     Point lower, upper;          // of the middles
-    std::uint32_t first, count;  // in order_; 0 elements: not a leaf
+    std::uint32_t first, count;  // of its elements; 0 elements: not a leaf
     std::uint32_t next;          // the box after this one and its descendants
   };
   std::vector<Point> middle_;
+  std::vector<double> extent_;  // the distance from the middle to the farthest point
   std::vector<double> area_;
   std::vector<Point> normal_;
   std::vector<double> distance_;
   double whole_area_ = 0;
-  std::vector<Box> boxes_;            // each before those within it
-  std::vector<std::uint32_t> order_;  // elements by leaf; elements added later are in none
+  std::vector<Box> boxes_;    // each before those within it
+  std::size_t arranged_ = 0;  // the number of elements in boxes; elements added later are in none
 };
 
 }  // namespace medial_vk

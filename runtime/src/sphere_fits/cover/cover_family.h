@@ -1,6 +1,7 @@
 // Covers by any number of balls, such that more balls never give a larger volume.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <map>
 #include <mutex>
@@ -12,11 +13,12 @@
 
 namespace medial_vk {
 
-/// The numbers for which a cover is searched from balls inside: 1, 4, 16, 64 and the powers of two beyond. Covers of
-/// numbers in between come from the next one by removal of balls.
+/// The numbers for which a cover is searched from balls inside: 1, 4, 16, 64, 96, 128, 192, 256 ..., from 64 on the
+/// powers of two and the numbers halfway. Covers of numbers in between come from the next one by removal of balls.
 constexpr std::size_t cover_top(std::size_t count) {
   std::size_t top = 1;
-  while (top < count) top *= top < 64 ? 4 : 2;
+  while (top < 64 && top < count) top *= 4;
+  while (top < count) top = std::has_single_bit(top) ? top / 2 * 3 : top / 3 * 4;
   return top;
 }
 

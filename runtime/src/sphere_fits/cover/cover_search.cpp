@@ -41,23 +41,20 @@ void CoverSearch::add_holder(std::uint32_t element, const Holder& holder) {
   rank(holder, highest_[element]);
 }
 
-/// Removes one holder of an element, and returns the height of its column.
-double CoverSearch::remove_holder(std::uint32_t element, std::uint32_t ball) {
+void CoverSearch::remove_holder(std::uint32_t element, std::uint32_t ball) {
   std::vector<Holder>& holders = holders_[element];
-  const auto at = std::find_if(holders.begin(), holders.end(), [ball](const Holder& h) { return h.ball == ball; });
-  const double height = at->height;
-  *at = holders.back();
+  *std::find_if(holders.begin(), holders.end(), [ball](const Holder& h) { return h.ball == ball; }) = holders.back();
   holders.pop_back();
   Highest& two = highest_[element];
-  if (two[0].ball != ball && two[1].ball != ball) return height;
+  if (two[0].ball != ball && two[1].ball != ball) return;
   two = {};
   for (const Holder& holder : holders) rank(holder, two);
-  return height;
 }
 
 void CoverSearch::recount() {
   touched_.assign(balls_.size(), {});
   holders_.assign(elements_.size(), {});
+  held_.assign(elements_.size(), 0);
   highest_.assign(elements_.size(), {});
   total_ = 0;
   std::vector<Ball> balls(balls_.size());
@@ -67,19 +64,25 @@ void CoverSearch::recount() {
 }
 
 void CoverSearch::replace(std::uint32_t i, const Ball& ball) {
-  for (const std::uint32_t element : touched_[i]) {
-    const double height = remove_holder(element, i), rest = highest(element, i);
-    if (height > rest) total_ += cost_of(element, rest) - cost_of(element, height);
+  for (const Touch& touch : touched_[i]) {
+    remove_holder(touch.element, i);
+    held_[touch.element] -= touch.holds;
+    const double rest = highest_[touch.element][0].height;
+    if (touch.height > rest) total_ += cost_of(touch.element, rest) - cost_of(touch.element, touch.height);
   }
   balls_[i] = ball;
   touched_[i].clear();
   if (ball.radius == 0) return;
-  elements_.gather(ball, touched_[i]);
-  for (const std::uint32_t element : touched_[i]) {
+  elements_.gather(ball, found_);
+  touched_[i].reserve(found_.size());
+  for (const std::uint32_t element : found_) {
     const double height = elements_.area(element) > 0 ? column(element).height(ball) : 0;
-    const double rest = highest(element, i);
+    const double rest = highest_[element][0].height;
     if (height > rest) total_ += cost_of(element, height) - cost_of(element, rest);
-    add_holder(element, {i, elements_.needed(ball.centre, element) <= ball.radius, height});
+    const bool holds = elements_.is_in(ball, element);
+    touched_[i].push_back({element, holds, height});
+    held_[element] += holds;
+    add_holder(element, {i, height});
   }
 }
 
@@ -89,18 +92,14 @@ void CoverSearch::undo(const std::vector<Saved>& saved) {
 
 std::vector<std::uint32_t> CoverSearch::exclusive(std::uint32_t i) const {
   std::vector<std::uint32_t> alone;
-  for (const std::uint32_t element : touched_[i]) {
-    bool is_held = false, by_other = false;
-    for (const Holder& holder : holders_[element]) (holder.ball == i ? is_held : by_other) |= holder.holds;
-    if (is_held && !by_other) alone.push_back(element);
+  for (const Touch& touch : touched_[i]) {
+    if (touch.holds && held_[touch.element] == 1) alone.push_back(touch.element);
   }
   return alone;
 }
 
 double CoverSearch::needed(const Point& centre, const std::vector<std::uint32_t>& some) const {
-  double radius = 0;
-  for (const std::uint32_t element : some) radius = std::max(radius, elements_.needed(centre, element));
-  return radius * kCoverRoom;
+  return elements_.needed(centre, some) * kCoverRoom;
 }
 
 Ball CoverSearch::around(const std::vector<std::uint32_t>& some) const {
@@ -115,11 +114,9 @@ Ball CoverSearch::around(const std::vector<std::uint32_t>& some) const {
 
 double CoverSearch::share(std::uint32_t i) const {
   double sum = 0;
-  for (const std::uint32_t element : touched_[i]) {
-    const double rest = highest(element, i);
-    for (const Holder& holder : holders_[element]) {
-      if (holder.ball == i && holder.height > rest) sum += cost_of(element, holder.height) - cost_of(element, rest);
-    }
+  for (const Touch& touch : touched_[i]) {
+    const double rest = highest(touch.element, i);
+    if (touch.height > rest) sum += cost_of(touch.element, touch.height) - cost_of(touch.element, rest);
   }
   return sum;
 }
@@ -127,7 +124,8 @@ double CoverSearch::share(std::uint32_t i) const {
 bool CoverSearch::costs_more(std::uint32_t i, double radius, double most) const {
   const Ball ball = {balls_[i].centre, radius};
   double sum = 0;
-  for (const std::uint32_t element : touched_[i]) {
+  for (const Touch& touch : touched_[i]) {
+    const std::uint32_t element = touch.element;
     if (!(elements_.area(element) > 0)) continue;
     const double height = column(element).height(ball);
     const double paid = highest_[element][0].height;

@@ -43,8 +43,12 @@ class CoverSearch {
  private:
   struct Holder {
     std::uint32_t ball = 0xffffffffu;
-    bool holds = false;  ///< The whole element, not only its middle.
-    double height = 0;   ///< Of the column.
+    double height = 0;  ///< Of the column.
+  };
+  struct Touch {
+    std::uint32_t element;
+    bool holds;     ///< The whole element, not only its middle.
+    double height;  ///< Of the column.
   };
   /// The highest two of an element's columns.
   using Highest = std::array<Holder, 2>;
@@ -72,7 +76,7 @@ class CoverSearch {
   double highest(std::uint32_t element, std::uint32_t but) const;
   static void rank(const Holder& holder, Highest& two);
   void add_holder(std::uint32_t element, const Holder& holder);
-  double remove_holder(std::uint32_t element, std::uint32_t ball);
+  void remove_holder(std::uint32_t element, std::uint32_t ball);
   /// Elements that no other ball holds.
   std::vector<std::uint32_t> exclusive(std::uint32_t i) const;
   double needed(const Point& centre, const std::vector<std::uint32_t>& some) const;
@@ -91,7 +95,8 @@ class CoverSearch {
   bool is_same_as_slid(std::uint32_t i, std::size_t alone) const;
   void slide_batch(std::span<const std::uint32_t> batch);
   bool trade_one(std::uint32_t i);
-  bool leave(std::uint32_t i, std::uint32_t but, std::vector<Saved>& saved);
+  double gain_without(std::uint32_t i, const std::vector<std::uint32_t>& alone, const Ball& taker) const;
+  bool leave(std::uint32_t i, std::uint32_t but, double most, std::vector<Saved>& saved);
   void take_share(std::uint32_t i, std::uint32_t wide, const Point& tip, double share);
   std::array<Point, 2> tips(std::uint32_t i) const;
   /// Ball `free` leaves its elements to others and takes a part of those of `wide`, if that lowers the sum.
@@ -101,9 +106,11 @@ class CoverSearch {
   std::vector<Ball> balls_;
   double ease_;
   Threads threads_;
-  std::vector<std::vector<std::uint32_t>> touched_;  // by ball: elements whose middles it holds
-  std::vector<std::vector<Holder>> holders_;         // by element
-  std::vector<Highest> highest_;                     // by element
+  std::vector<std::vector<Touch>> touched_;   // by ball: elements whose middles it holds
+  std::vector<std::vector<Holder>> holders_;  // by element: balls that hold its middle
+  std::vector<std::uint32_t> held_;           // by element: the number of balls that hold it whole
+  std::vector<Highest> highest_;              // by element
+  std::vector<std::uint32_t> found_;          // of replace(), kept for its memory
   std::vector<Slid> slid_;
   double total_ = 0;
 };

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/point_ops.h"
+#include "sphere_fits/cover/centre_search.h"
 #include "sphere_fits/cover/cover_search.h"
 #include "sphere_fits/cover/smallest_ball.h"
 #include "sphere_fits/quality/branch_and_bound.h"
@@ -17,81 +18,30 @@ namespace medial_vk {
 /// ball.
 Ball CoverSearch::best_around(std::uint32_t i, const std::vector<std::uint32_t>& some, int halvings) const {
   std::vector<Point> points;
+  points.reserve(3 * some.size());
   for (const std::uint32_t element : some) {
     points.insert(points.end(), elements_.points(element).begin(), elements_.points(element).end());
   }
+  constexpr double kReach = 1.6;
   const Ball smallest = smallest_ball(points);
-  const auto radius_at = [&](const Point& centre) {
-    double squared = 0;
-    for (const Point& p : points) {
-      const Point d = p - centre;
-      squared = std::max(squared, dot(d, d));
-    }
-    return std::sqrt(squared) * kCoverRoom;
-  };
   const Point from = balls_[i].centre;
-  Ball best = {from, radius_at(from)};
+  const double away = length(smallest.centre - from);
+  const double reach = kReach * std::max(farthest_of(points, from), smallest.radius + away);
   // All elements that a step may touch.
   std::vector<std::uint32_t> near;
-  const double reach = std::max(best.radius, smallest.radius + length(smallest.centre - from));
-  elements_.gather({from, 1.6 * reach}, near);
-  struct Paid {
-    Column column;
-    double area, rest, paid;
-  };
-  std::vector<Paid> columns;
+  elements_.gather({from, reach}, near);
+  std::vector<PaidColumn> columns;
+  columns.reserve(near.size());
   for (const std::uint32_t element : near) {
     if (!(elements_.area(element) > 0)) continue;
     const double rest = highest(element, i);
     const Column over = column(element);
     columns.push_back({over, elements_.area(element), rest, over.cost(rest, ease_)});
   }
-  /// Stops where it is more than `enough`.
-  const auto cost = [&](const Ball& ball, double enough) {
-    double sum = 0;
-    const double most = ball.radius * ball.radius;
-    for (const Paid& each : columns) {
-      const Point w = each.column.from - ball.centre;
-      if (dot(w, w) > most) continue;
-      const double height = each.column.height(ball);
-      if (height <= each.rest) continue;
-      sum += each.area * (each.column.cost(height, ease_) - each.paid);
-      if (sum > enough) break;
-    }
-    return sum;
-  };
-  double least = cost(best, std::numeric_limits<double>::infinity());
-  const auto attempt = [&](const Point& centre) {
-    const Ball ball = {centre, radius_at(centre)};
-    if (length(centre - from) + ball.radius > 1.6 * reach) return false;
-    const double here = cost(ball, least);
-    if (!(here < least * (1 - 1e-4))) return false;
-    least = here;
-    best = ball;
-    return true;
-  };
-  attempt(smallest.centre);
-  attempt(0.5 * (smallest.centre + from));
-  double step = 0.15 * best.radius;
-  for (int halving = 0; halving < halvings; step /= 2, ++halving) {
-    for (bool moved = true; moved;) {
-      moved = false;
-      const Point start = best.centre;
-      const Point to = smallest.centre - start;
-      if (length(to) > step) moved = attempt(start + (step / length(to)) * to);
-      for (std::size_t axis = 0; axis < 3 && !moved; ++axis) {
-        for (const double way : {step, -step}) {
-          Point centre = start;
-          centre[axis] += way;
-          if (attempt(centre)) {
-            moved = true;
-            break;
-          }
-        }
-      }
-    }
-  }
-  return best;
+  CentreSearch search(std::move(points), std::move(columns), ease_, {from, reach});
+  search.attempt(smallest.centre);
+  search.attempt(0.5 * (smallest.centre + from));
+  return search.descend(smallest.centre, halvings);
 }
 
 std::vector<std::uint32_t> CoverSearch::costliest_first() const {
@@ -166,6 +116,22 @@ std::vector<std::uint32_t> CoverSearch::neighbours(std::uint32_t i, std::size_t 
   return balls;
 }
 
+/// At most so much is gained if ball i shrinks around those of the elements `alone` that are not in `taker`.
+double CoverSearch::gain_without(std::uint32_t i, const std::vector<std::uint32_t>& alone, const Ball& taker) const {
+  std::vector<std::uint32_t> rest;
+  std::ranges::copy_if(alone, std::back_inserter(rest), [&](std::uint32_t e) { return !elements_.is_in(taker, e); });
+  const Ball shrunk = {balls_[i].centre, needed(balls_[i].centre, rest)};
+  double gain = 0;
+  for (const Touch& touch : touched_[i]) {
+    const double other = highest(touch.element, i);
+    if (!(touch.height > other)) continue;
+    const bool is_touched = length(elements_.middle(touch.element) - shrunk.centre) <= shrunk.radius;
+    const double least = is_touched ? std::max(other, column(touch.element).height(shrunk)) : other;
+    if (touch.height > least) gain += cost_of(touch.element, touch.height) - cost_of(touch.element, least);
+  }
+  return gain;
+}
+
 bool CoverSearch::trade_one(std::uint32_t i) {
   threads_.check();
   const std::vector<std::uint32_t> alone = exclusive(i);
@@ -179,7 +145,7 @@ bool CoverSearch::trade_one(std::uint32_t i) {
       support = element;
     }
   }
-  const double total = total_, own = share(i);
+  const double total = total_;
   for (const double part : {0.03, 0.12, 0.3}) {
     std::vector<std::uint32_t> given;
     for (const std::uint32_t element : alone) {
@@ -199,10 +165,10 @@ bool CoverSearch::trade_one(std::uint32_t i) {
     std::partial_sort(takers.begin(), std::next(takers.begin(), static_cast<std::ptrdiff_t>(count)), takers.end());
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint32_t j = takers[k].second;
-      const double radius = std::max(balls_[j].radius, needed(balls_[j].centre, given));
-      if (costs_more(j, radius, own)) continue;  // The possible gain of ball i is at most its share.
+      const Ball grown = {balls_[j].centre, std::max(balls_[j].radius, needed(balls_[j].centre, given))};
+      if (costs_more(j, grown.radius, gain_without(i, alone, grown))) continue;
       const std::vector<Saved> saved = {{j, balls_[j]}, {i, whole}};
-      replace(j, {balls_[j].centre, radius});
+      replace(j, grown);
       const std::vector<std::uint32_t> rest = exclusive(i);
       replace(i, rest.empty() ? Ball{whole.centre, 0} : Ball{whole.centre, needed(whole.centre, rest)});
       if (total_ < total * (1 - 1e-6)) return true;
@@ -220,8 +186,9 @@ std::size_t CoverSearch::trade() {
   return traded;
 }
 
-/// Assigns the elements that only ball i holds to the neighbour that must grow least for them, except `but`.
-bool CoverSearch::leave(std::uint32_t i, std::uint32_t but, std::vector<Saved>& saved) {
+/// Assigns the elements that only ball i holds to the neighbour that must grow least for them, except `but`, unless the
+/// sum surely rises by more than `most`.
+bool CoverSearch::leave(std::uint32_t i, std::uint32_t but, double most, std::vector<Saved>& saved) {
   threads_.check();
   const std::vector<std::uint32_t> left = exclusive(i);
   if (!left.empty()) {
@@ -235,6 +202,7 @@ bool CoverSearch::leave(std::uint32_t i, std::uint32_t but, std::vector<Saved>& 
       }
     }
     if (taker == i) return false;
+    if (costs_more(taker, balls_[taker].radius + least, most + share(i))) return false;
     saved.push_back({taker, balls_[taker]});
     replace(taker, {balls_[taker].centre, std::max(balls_[taker].radius, needed(balls_[taker].centre, left))});
   }
@@ -282,7 +250,12 @@ std::array<Point, 2> CoverSearch::tips(std::uint32_t i) const {
 bool CoverSearch::move_to(std::uint32_t free, std::uint32_t wide) {
   const double total = total_;
   std::vector<Saved> saved = {{wide, balls_[wide]}};
-  if (!leave(free, wide, saved)) return false;
+  if (!leave(free, wide, share(wide), saved)) return false;
+  // Two balls in place of `wide` leave at least what others cause.
+  if (total_ - share(wide) >= total * (1 - 1e-6)) {
+    undo(saved);
+    return false;
+  }
   const Ball whole = balls_[wide], none = balls_[free];
   const std::array<Point, 2> at = tips(wide);
   for (const auto& [k, share] : {std::pair<std::size_t, double>{0, 0.5}, {1, 0.2}}) {
@@ -340,14 +313,14 @@ void CoverSearch::remove_one() {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < std::min(kTries, order.size()); ++k) {
     std::vector<Saved> saved;
-    if (leave(order[k].second, order[k].second, saved) && total_ < least) {
+    if (leave(order[k].second, order[k].second, HUGE_VAL, saved) && total_ < least) {
       least = total_;
       cheapest = order[k].second;
     }
     undo(saved);
   }
   std::vector<Saved> saved;
-  leave(cheapest, cheapest, saved);
+  leave(cheapest, cheapest, HUGE_VAL, saved);
   const auto last = static_cast<std::uint32_t>(balls_.size() - 1);
   const Ball moved = balls_[last];
   replace(last, {moved.centre, 0});

@@ -47,6 +47,19 @@ Result<SphereSet> keep_contract(const Solid& solid, SphereSet inside, const Sphe
   return inside;
 }
 
+Status check_distance_bound(const Solid& solid, const SphereFitOptions& options) {
+  constexpr double kLeast = 1e-4;  // of the diagonal
+  if (!std::isfinite(options.max_distance) || options.max_distance < 0) {
+    return usage("`max_distance` must be finite and not negative");
+  }
+  if (options.max_distance == 0) return {};
+  if (options.contract != SphereContract::kBalanced || options.method != SphereMethod::kBest) {
+    return usage("`max_distance` is about balanced balls of the `method` best");
+  }
+  if (options.max_distance < kLeast * solid.diagonal()) return usage("`max_distance` is below 1e-4 of the diagonal");
+  return {};
+}
+
 Status check_request(const Solid& solid, const SphereFitOptions& options) {
   const bool finite = std::isfinite(options.error) && std::isfinite(options.max_gap);
   if (!finite || options.error < 0 || options.error >= 1 || options.max_gap < 0) {
@@ -55,6 +68,7 @@ Status check_request(const Solid& solid, const SphereFitOptions& options) {
   if (options.error > 0 && !solid.has_volume()) {
     return usage("`error` is a share of the volume, which this mesh does not enclose cleanly; use `count` instead");
   }
+  if (Status status = check_distance_bound(solid, options); !status) return status;
   if (options.balls_only && options.levels) return usage("`balls_only` gives one set of balls, and no levels");
   if (options.for_distances) {
     const bool is_by_count = options.count > 0 && options.error == 0 && options.max_gap == 0 && !options.levels;
@@ -63,7 +77,8 @@ Status check_request(const Solid& solid, const SphereFitOptions& options) {
     return usage("`for_distances` gives sets of the method best, inside or covers, by `count` alone, without levels");
   }
   const bool is_by_resolution = options.method == SphereMethod::kSource && options.resolution > 0;
-  if (options.count == 0 && options.error == 0 && options.max_gap == 0 && !is_by_resolution) {
+  const bool has_goal = options.error > 0 || options.max_gap > 0 || options.max_distance > 0;
+  if (options.count == 0 && !has_goal && !is_by_resolution) {
     return usage("there is no goal: give a `count`, an `error` or a `max_gap`");
   }
   // Balls inside keep a distance of the rounding from the boundary.
@@ -77,7 +92,6 @@ Status check_request(const Solid& solid, const SphereFitOptions& options) {
   if (options.contract == SphereContract::kBalanced && is_best && !solid.mesh().report.closed) {
     return usage("balanced balls need a mesh without open edges; use `contract` inside, or `method` source");
   }
-  const bool has_goal = options.error > 0 || options.max_gap > 0;
   if (has_goal && options.contract != SphereContract::kInside && !is_best) {
     return usage("`method` source with this `contract` supports neither `error` nor `max_gap`; use `count`");
   }
@@ -180,7 +194,7 @@ Result<std::vector<SphereSet>> best_covers(const Solid& solid, const SphereFitOp
 Result<std::vector<SphereSet>> best_balanced(const Solid& solid, const SphereFitOptions& options, bool all_levels,
                                              const Extractor& extractor, const SphereProgress& progress) {
   Result<SphereSet> found = best_spheres(solid, options, extractor, progress);
-  if (found && all_levels && (options.error > 0 || options.max_gap > 0)) {
+  if (found && all_levels && (options.error > 0 || options.max_gap > 0 || options.count == 0)) {
     // The numbers of the levels are known only now.
     SphereFitOptions again = options;
     again.count = found.value().balls.size();

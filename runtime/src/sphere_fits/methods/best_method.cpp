@@ -12,6 +12,7 @@
 #include "base/format_text.h"
 #include "base/point_ops.h"
 #include "sphere_fits/cover/cover_family.h"
+#include "sphere_fits/methods/distance_bound.h"
 #include "sphere_fits/methods/prefixes.h"
 #include "sphere_fits/quality/envelope_distance.h"
 #include "sphere_fits/quality/measures.h"
@@ -20,6 +21,7 @@
 #include "sphere_fits/steps/gap_balls.h"
 #include "sphere_fits/steps/gaps.h"
 #include "sphere_fits/steps/maximal_ball.h"
+#include "sphere_fits/steps/near_boundary.h"
 #include "threads/worker_pool.h"
 
 namespace medial_vk {
@@ -37,6 +39,7 @@ constexpr double kObjectAngle = 0.3;
 constexpr std::size_t kGapPeriod = 8;   // every eighth ball is placed by distance instead of volume
 constexpr std::size_t kFirstGap = 16;   // earlier balls form the rough shape
 constexpr double kAsGood = 0.4;         // share of the best gain from which a ball placed by distance is preferred
+constexpr double kSooner = 0.98;        // between two attempts to prove a distance
 constexpr double kGapTolerance = 0.01;  // of the bounds of the greatest gap, as a share of the goal
 
 /// Step lengths of sliding, in radii of the ball.
@@ -60,10 +63,12 @@ class Placing {
         balls_(std::move(balls)),
         coverage_(solid.mesh().report.lower, solid.mesh().report.upper),
         pool_(options.threads),
-        moves_(options.contract == SphereContract::kBalanced ? balancing_steps(solid) : sliding_steps(solid)),
+        near_boundary_(solid, near_limit(options)),
+        moves_(options.contract == SphereContract::kBalanced ? balancing_steps(solid, bound()) : sliding_steps(solid)),
         gaps_(solid, balls_, options.contract == SphereContract::kBalanced),
         estimated_error_(options.error),
-        sampled_gap_(options.max_gap) {}
+        sampled_gap_(options.max_gap),
+        sampled_distance_(options.max_distance) {}
 
   Result<SphereSet> run() {
     const std::size_t most = options_.count > 0 ? options_.count : kMostBalls;
@@ -77,9 +82,11 @@ class Placing {
       if (!choice) return choice.error();
       if (!choice.value()) break;
       if (Status status = place(*choice.value()); !status.ok()) return status.error();
+      const bool ends_stage = is_stage(balls_.size(), most);
+      if (Status status = keep_bound_if_due(ends_stage); !status.ok()) return status.error();
       volumes_.push_back(balls_.volume());
       if (std::has_single_bit(balls_.size())) divide_coverage();
-      if (is_stage(balls_.size(), most)) stages_[balls_.size()] = all_balls();
+      if (ends_stage) stages_[balls_.size()] = all_balls();
       if (!progress_) continue;
       shown_ = share_done(most);
       if (!progress_("spheres", shown_)) return Error{ErrorCode::kInterrupted, "interrupted"};
@@ -97,10 +104,19 @@ class Placing {
     return std::binary_search(levels.begin(), levels.end(), count);
   }
 
-  bool has_goals() const { return options_.error > 0 || options_.max_gap > 0; }
+  bool has_goals() const { return options_.error > 0 || options_.max_gap > 0 || is_distance_goal(); }
+  /// Otherwise the bound is one for the number of balls.
+  bool is_distance_goal() const {
+    return options_.max_distance > 0 && (options_.count == 0 || options_.error > 0 || options_.max_gap > 0);
+  }
 
   Result<bool> goals_met() {
     if (!has_goals() || balls_.size() == 0) return false;
+    if (options_.error > 0 && !(moves_->error(balls_) <= estimated_error_)) return false;
+    if (is_distance_goal()) {  // first, as this changes balls
+      Result<bool> met = distance_met();
+      if (!met || !met.value()) return met;
+    }
     if (options_.error > 0) {
       Result<bool> met = error_met();
       if (!met || !met.value()) return met;
@@ -136,6 +152,20 @@ class Placing {
     return false;
   }
 
+  /// Samples decide when the distance is measured, as for the gap.
+  Result<bool> distance_met() {
+    const double sampled = gaps_.widest_on_boundary().size;
+    if (!(sampled <= sampled_distance_)) return false;
+    if (Status status = keep_bound(); !status.ok()) return status.error();
+    const Result<Bounds> distance = measure_surface_distance(
+        solid_, all_balls(),
+        {.tolerance = distance_tolerance(solid_, options_), .threads = {options_.threads, goes_on()}});
+    if (!distance) return distance.error();
+    if (distance.value().upper <= options_.max_distance) return true;
+    sampled_distance_ = kSooner * std::min(sampled, sampled * options_.max_distance / distance.value().upper);
+    return false;
+  }
+
   /// For loops on several threads.
   std::function<bool()> goes_on() const {
     return [&, mutex = std::make_shared<std::mutex>()] {
@@ -149,22 +179,34 @@ class Placing {
     double share = 1;
     if (options_.error > 0) share = std::min(share, options_.error / moves_->error(balls_));
     if (options_.max_gap > 0) share = std::min(share, options_.max_gap / gaps_.widest_on_boundary().size);
+    if (is_distance_goal()) share = std::min(share, options_.max_distance / gaps_.widest_on_boundary().size);
     return share;
   }
 
   Error unmet() {
-    std::string left;
-    if (options_.error > 0)
-      left = format_text("{:.3g} of the volume {}", moves_->error(balls_),
-                         options_.contract == SphereContract::kBalanced ? "on either side" : "uncovered");
-    if (options_.max_gap > 0) {
-      left += format_text("{}a gap of {:.3g}", left.empty() ? "" : " and ", gaps_.widest_on_boundary().size);
+    const double gap = options_.max_gap > 0 || is_distance_goal() ? gaps_.widest_on_boundary().size : 0;
+    struct Goal {
+      bool is_given;
+      const char* name;
+      std::string left;
+    };
+    const std::array<Goal, 3> goals = {
+        {{options_.error > 0, "`error`",
+          format_text("{:.3g} of the volume {}", moves_->error(balls_),
+                      options_.contract == SphereContract::kBalanced ? "on either side" : "uncovered")},
+         {options_.max_gap > 0, "`max_gap`", format_text("a gap of {:.3g}", gap)},
+         {is_distance_goal(), "`max_distance`",
+          format_text("surfaces farther apart than {:.3g}", options_.max_distance)}}};
+    std::string left, names;
+    for (const Goal& goal : goals) {
+      if (!goal.is_given) continue;
+      left += (left.empty() ? "" : " and ") + goal.left;
+      names += std::string(", ") + goal.name;
     }
+    if (const std::size_t last = names.rfind(", "); last != std::string::npos) names.replace(last, 2, " or ");
     const std::size_t n = balls_.size();
-    return {ErrorCode::kUsage, format_text("{} {} {}; raise {}", n, n == 1 ? "ball leaves" : "balls leave", left,
-                                           options_.max_gap <= 0 ? "`count` or `error`"
-                                           : options_.error <= 0 ? "`count` or `max_gap`"
-                                                                 : "`count`, `error` or `max_gap`")};
+    return {ErrorCode::kUsage,
+            format_text("{} {} {}; raise `count`{}", n, n == 1 ? "ball leaves" : "balls leave", left, names)};
   }
 
   /// Switches to the next finer medial points, if there are enough balls for them.
@@ -287,14 +329,15 @@ class Placing {
       }
       return settle();
     }
-    if (coverage_.cell() == 0) return {};
-    for (std::size_t k = 0; k < around.size(); ++k) {
-      const Ball &from = before.balls[k], &to = balls_.ball(around[k]);
-      if (from.centre == to.centre && from.radius == to.radius) continue;
-      coverage_.remove(from);
-      coverage_.add(to);
-    }
+    for (std::size_t k = 0; k < around.size(); ++k) cover_anew(before.balls[k], balls_.ball(around[k]));
     return {};
+  }
+
+  /// A ball has become another one.
+  void cover_anew(const Ball& from, const Ball& to) {
+    if (coverage_.cell() == 0 || (from.centre == to.centre && from.radius == to.radius)) return;
+    coverage_.remove(from);
+    coverage_.add(to);
   }
 
   Status settle() {
@@ -315,6 +358,27 @@ class Placing {
     for (std::uint32_t slot = 0; slot < balls_.slots(); ++slot) all.push_back(balls_.ball(slot));
     return all;
   }
+  const NearBoundary* bound() const { return options_.max_distance > 0 ? &near_boundary_ : nullptr; }
+
+  /// Replaces balls by those that keep the bound of the distance, if there is one.
+  Status keep_bound() {
+    if (bound() == nullptr || kept_of_ == balls_.size()) return {};
+    kept_of_ = balls_.size();
+    const std::vector<Ball> kept = near_boundary_.keep(all_balls(), {options_.threads, goes_on()});
+    for (std::uint32_t slot = 0; slot < balls_.slots(); ++slot) {
+      const Ball before = balls_.ball(slot), after = {before.centre, std::max(kept[slot].radius, solid_.rounding())};
+      if (after.radius >= before.radius) continue;
+      if (Status status = moves_->replace(balls_, slot, after); !status.ok()) return status;
+      cover_anew(before, after);
+    }
+    return settle();
+  }
+  /// For every stage, and from time to time, so that further balls fill what has been left.
+  Status keep_bound_if_due(bool is_stage) {
+    constexpr std::size_t kFirst = 8, kShare = 16;
+    const bool is_due = is_stage || balls_.size() >= std::max(kFirst, kept_of_ + kept_of_ / kShare + 1);
+    return is_due ? keep_bound() : Status();
+  }
   std::vector<Ball> balls_in(std::span<const std::uint32_t> slots) const {
     std::vector<Ball> balls;
     balls.reserve(slots.size());
@@ -322,7 +386,8 @@ class Placing {
     return balls;
   }
 
-  Result<SphereSet> result() const {
+  Result<SphereSet> result() {
+    if (Status status = keep_bound(); !status.ok()) return status.error();
     SphereSet set = {all_balls(), volumes_, stages_};
     if (options_.contract == SphereContract::kInside) set.stages[cover_top(balls_.size())] = set.balls;
     if (Status status = order_by_share(set.balls, options_.threads); !status.ok()) return status.error();
@@ -337,6 +402,7 @@ class Placing {
   Candidates candidates_;
   Coverage coverage_;  // by the balls of the union
   WorkerPool pool_;
+  NearBoundary near_boundary_;  // of options_.max_distance, if that is given
   std::unique_ptr<BallSteps> moves_;
   GapFinder gaps_;
   std::size_t levels_ = 0;
@@ -345,6 +411,8 @@ class Placing {
   std::map<std::size_t, std::vector<Ball>> stages_;
   double estimated_error_;     // estimate of the steps below which the error is measured
   double sampled_gap_;         // gap of samples below which a proof is attempted
+  double sampled_distance_;    // likewise, for the distance of the surfaces
+  std::size_t kept_of_ = 0;    // number of balls when they last were made to keep the bound
   std::vector<double> steps_;  // by slot
 };
 

@@ -10,8 +10,10 @@
 #include "base/point_ops.h"
 #include "medial_vk/sphere_fits.h"
 #include "sphere_fits/methods/approximate.h"
+#include "sphere_fits/methods/distance_bound.h"
 #include "sphere_fits/methods/prefixes.h"
 #include "sphere_fits/quality/branch_and_bound.h"
+#include "sphere_fits/quality/envelope_distance.h"
 #include "sphere_fits/quality/measures.h"
 #include "sphere_fits/quality/sphere_certificate.h"
 
@@ -64,6 +66,20 @@ Status check_contract(SphereContract contract, const SphereMeasures& measures) {
   return {};
 }
 
+/// Balls that do not keep the bound of the distance are not returned.
+Status check_distance(const Solid& solid, const std::vector<Ball>& balls, const SphereFitOptions& options,
+                      const SphereProgress& progress) {
+  if (options.max_distance <= 0) return {};
+  const Threads threads = {options.threads, [&progress] { return progress("spheres", 1); }};
+  const Result<Bounds> distance =
+      measure_surface_distance(solid, balls, {.tolerance = distance_tolerance(solid, options), .threads = threads});
+  if (!distance) return distance.error();
+  if (distance.value().upper <= options.max_distance) return {};
+  return Error{ErrorCode::kUsage,
+               format_text("{} balls keep the surfaces within {:.3g} of each other; raise `count` or `max_distance`",
+                           balls.size(), distance.value().upper)};
+}
+
 /// The distance of a point of a ball outside the solid is at most the difference of radius and distance of the centre
 /// to the boundary if the centre is inside, and at most their sum if it is not. Contract inside excludes points
 /// outside.
@@ -109,6 +125,9 @@ Result<SphereFit> fit(const Solid& solid, const SphereFitOptions& options, const
   Result<std::vector<SphereSet>> sets = options.levels ? approximate_in_levels(solid, options, extractor, progress)
                                                        : approximate_once(solid, options, extractor, progress);
   if (!sets) return sets.error();
+  if (Status status = check_distance(solid, sets.value().back().balls, options, progress); !status) {
+    return status.error();
+  }
   Result<SphereMeasures> measured = measures_of(solid, sets.value().back().balls, options, progress);
   if (!measured) return measured.error();
   if (Status status = check_contract(options.contract, measured.value()); !status) return status.error();

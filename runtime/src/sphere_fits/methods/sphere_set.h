@@ -18,7 +18,7 @@ struct SphereSet {
   /// Method best, contract inside: volume of the union after 1, 2, 3 ... balls, which is the same for every requested
   /// number. (Not that of the first balls here, as balls move while others are added.)
   std::vector<double> volumes = {};
-  /// Likewise, the balls after 1, 4, 16, 64, 128, 256 ... of them, by that number, and the final ones; method best,
+  /// Likewise, the balls after 1, 4, 16, 64, 96, 128, 192 ... of them, by that number, and the final ones; method best,
   /// balanced: the balls at the numbers of the levels.
   std::map<std::size_t, std::vector<Ball>> stages = {};
 };

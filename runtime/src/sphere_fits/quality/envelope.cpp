@@ -199,6 +199,21 @@ double Envelope::distance(const Point& p, double enough) const {
   return best;
 }
 
+double Envelope::distance_along(const Point& p, const Point& direction, double most) const {
+  constexpr int kMostBalls = 8;  // along the way; more are rarely worth it
+  double along = 0;
+  for (int step = 0; step < kMostBalls && along <= most; ++step) {
+    const Point at = p + along * direction;
+    const NearestBall inside = tree_.nearest(at);
+    if (inside.distance >= -tolerance_) return along;
+    const Ball& ball = tree_.balls()[inside.ball];
+    const Point w = at - ball.centre;
+    const double middle = -dot(w, direction);
+    along += middle + std::sqrt(std::max(0.0, middle * middle + ball.radius * ball.radius - dot(w, w)));
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
 double Envelope::signed_distance(const Point& p) const { return tree_.holds(p) ? -distance(p) : distance(p); }
 
 }  // namespace medial_vk

@@ -1,31 +1,19 @@
 #include "sphere_fits/quality/envelope_distance.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <new>
 
 #include "base/host_memory.h"
 #include "base/point_ops.h"
+#include "sphere_fits/quality/triangle_part.h"
 
 namespace medial_vk {
 namespace {
 
 constexpr double kNone = -std::numeric_limits<double>::infinity();
-
-/// A triangle or a part of one.
-struct Part {
-  std::array<Point, 3> corner;
-
-  Point middle() const { return (1.0 / 3) * (corner[0] + (corner[1] + corner[2])); }
-  double reach(const Point& from) const {
-    return std::max({length(corner[0] - from), length(corner[1] - from), length(corner[2] - from)});
-  }
-};
-
-void split_part(const Part& part, std::vector<Part>& parts) {
-  const auto& [a, b, c] = part.corner;
-  const Point ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
-  parts.insert(parts.end(), {{{a, ab, ca}}, {{ab, b, bc}}, {{ca, bc, c}}, {{ab, bc, ca}}});
-}
 
 struct Cube {
   Point centre;
@@ -112,8 +100,12 @@ class Measure {
     return d;
   }
 
+  Bounds between_surfaces() const {
+    return greater(boundary_to_envelope(boundary_to_balls().lower), envelope_to_boundary());
+  }
+
   Bounds boundary_to_balls() const {
-    const auto evaluate = [&](const Part& part, double) -> CellBounds {
+    const auto evaluate = [&](const TrianglePart& part, double) -> CellBounds {
       const Point middle = part.middle();
       const NearestBall nearest = tree_.nearest(middle);
       return {nearest.distance, bound_over(part, middle, nearest)};
@@ -127,7 +119,7 @@ class Measure {
   }
 
   /// A ball's |p - c| - r is convex: in the part, it is at most the greatest of its values at corners.
-  double bound_over(const Part& part, const Point& middle, const NearestBall& nearest) const {
+  double bound_over(const TrianglePart& part, const Point& middle, const NearestBall& nearest) const {
     const Ball& ball = tree_.balls()[nearest.ball];
     return std::min(nearest.distance + part.reach(middle), part.reach(ball.centre) - ball.radius);
   }
@@ -211,10 +203,34 @@ class Measure {
     return greatest;
   }
 
+  /// The greatest distance to the envelope of those points of the boundary that are the nearest ones to its vertices. A
+  /// vertex is no nearer to its point than the envelope, so most distances need not be computed.
+  double greatest_below_vertices() const {
+    constexpr std::size_t kBlock = 64;
+    struct Foot {
+      Point at;
+      double most;
+    };
+    const std::vector<EnvelopeVertex>& vertices = envelope_.vertices();
+    std::vector<Foot> feet(vertices.size());
+    for_all(vertices.size(), 16, limits_.threads, [&](std::size_t i) {
+      const BvhHit hit = solid_.closest(vertices[i].at);
+      feet[i] = {hit.point, std::sqrt(hit.squared_distance)};
+    });
+    std::stable_sort(feet.begin(), feet.end(), [](const Foot& a, const Foot& b) { return a.most > b.most; });
+    double greatest = 0;
+    for (std::size_t begin = 0; begin < feet.size() && feet[begin].most > greatest; begin += kBlock) {
+      std::array<double, kBlock> distances{};
+      for_all(std::min(kBlock, feet.size() - begin), 1, limits_.threads,
+              [&](std::size_t i) { distances[i] = envelope_.distance(feet[begin + i].at, greatest); });
+      greatest = std::max(greatest, *std::max_element(distances.begin(), distances.end()));
+    }
+    return greatest;
+  }
+
   Bounds boundary_to_envelope(double lower) const {
-    lower = std::max(lower,
-                     greatest_at_vertices([&](const Point& p) { return envelope_.distance(solid_.closest(p).point); }));
-    const auto evaluate = [&](const Part& part, double known) -> CellBounds {
+    lower = std::max(lower, greatest_below_vertices());
+    const auto evaluate = [&](const TrianglePart& part, double known) -> CellBounds {
       const Point middle = part.middle();
       const double reach = part.reach(middle);
       const NearestBall nearest = tree_.nearest(middle);
@@ -223,6 +239,8 @@ class Measure {
         return {nearest.distance, nearest.distance + reach};
       }
       const double enough = known + limits_.tolerance - reach;
+      const double outward = envelope_.distance_along(middle, part.normal(), enough);
+      if (outward <= enough) return {kNone, outward + reach};
       const double distance = envelope_.distance(middle, enough);
       return {distance > enough ? distance : kNone, distance + reach};
     };
@@ -241,7 +259,7 @@ class Measure {
       cube.ball = nearest.ball;
       if (std::fabs(nearest.distance) > reach + slack_) return {};
       const double before = length(cube.centre - cube.at_boundary);
-      const BvhHit hit = solid_.bvh().closest(cube.centre, before);
+      const BvhHit hit = solid_.closest(cube.centre, before);
       if (hit.triangle != BvhHit().triangle) cube.at_boundary = hit.point;
       const double distance = std::min(before, std::sqrt(hit.squared_distance));
       CellBounds cell = {kNone, cube.farthest(cube.at_boundary)};
@@ -262,7 +280,7 @@ class Measure {
   const EnvelopeOptions& options_;
   double slack_;
   SearchLimits limits_;
-  std::vector<Part> parts_;
+  std::vector<TrianglePart> parts_;
 };
 
 }  // namespace
@@ -276,6 +294,20 @@ namespace {
 Error stopped() { return {ErrorCode::kInterrupted, "interrupted"}; }
 
 Error no_memory() { return out_of_memory("measuring the distance of the balls from the solid"); }
+
+template <class Function>
+Result<Bounds> measured(const Solid& solid, std::span<const Ball> balls, const EnvelopeOptions& options,
+                        Function function) {
+  const Result<Envelope> envelope = Envelope::build(balls, options.threads.count);
+  if (!envelope) return envelope.error();
+  try {
+    return function(Measure(solid, envelope.value(), options));
+  } catch (const Stopped&) {
+    return stopped();
+  } catch (const std::bad_alloc&) {
+    return no_memory();
+  }
+}
 
 }  // namespace
 
@@ -292,15 +324,12 @@ Result<EnvelopeDistances> measure_distances(const Solid& solid, const Envelope& 
 }
 
 Result<Bounds> measure_greatest_gap(const Solid& solid, std::span<const Ball> balls, const EnvelopeOptions& options) {
-  const Result<Envelope> envelope = Envelope::build(balls, options.threads.count);
-  if (!envelope) return envelope.error();
-  try {
-    return Measure(solid, envelope.value(), options).boundary_to_balls();
-  } catch (const Stopped&) {
-    return stopped();
-  } catch (const std::bad_alloc&) {
-    return no_memory();
-  }
+  return measured(solid, balls, options, [](const Measure& measure) { return measure.boundary_to_balls(); });
+}
+
+Result<Bounds> measure_surface_distance(const Solid& solid, std::span<const Ball> balls,
+                                        const EnvelopeOptions& options) {
+  return measured(solid, balls, options, [](const Measure& measure) { return measure.between_surfaces(); });
 }
 
 }  // namespace medial_vk

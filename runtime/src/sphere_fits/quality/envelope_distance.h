@@ -27,4 +27,8 @@ Result<EnvelopeDistances> measure_distances(const Solid& solid, const Envelope& 
 Result<Bounds> measure_greatest_gap(const Solid& solid, std::span<const Ball> balls,
                                     const EnvelopeOptions& options = {});
 
+/// EnvelopeDistances::between_surfaces() alone. Errors: as of measure_greatest_gap().
+Result<Bounds> measure_surface_distance(const Solid& solid, std::span<const Ball> balls,
+                                        const EnvelopeOptions& options = {});
+
 }  // namespace medial_vk

@@ -54,11 +54,18 @@ Change least_absolute(const std::vector<Height>& heights, double unit) {
 
 class BalancingSteps : public BallSteps {
  public:
-  explicit BalancingSteps(const Solid& solid) : solid_(solid), difference_(solid) {}
+  BalancingSteps(const Solid& solid, const NearBoundary* bound) : solid_(solid), bound_(bound), difference_(solid) {}
 
   void came(const DynamicUnion& balls, std::uint32_t slot) override {
     find_others(balls, slot, 0);
     gained_ -= difference_.change(balls.ball(slot), others_);
+  }
+
+  Status replace(DynamicUnion& balls, std::uint32_t slot, const Ball& to) override {
+    find_others(balls, slot,
+                length(to.centre - balls.ball(slot).centre) + std::fabs(to.radius - balls.ball(slot).radius));
+    gained_ += difference_.change(balls.ball(slot), others_) - difference_.change(to, others_);
+    return balls.shift(slot, to);
   }
 
   double error(const DynamicUnion& /*balls*/) const override {
@@ -96,7 +103,8 @@ class BalancingSteps : public BallSteps {
     const double size = length(change.move) + std::fabs(change.growth);
     if (!(size > 1e-6 * step)) return std::optional<Ball>();
     const double factor = std::min(1.0, step / size);
-    const Ball moved = {ball.centre + factor * change.move, ball.radius + factor * change.growth};
+    Ball moved = {ball.centre + factor * change.move, ball.radius + factor * change.growth};
+    if (bound_ != nullptr) moved.radius = std::min(moved.radius, bound_->greatest_radius(moved.centre));
     return moved.radius > 0 ? std::optional(moved) : std::optional<Ball>();
   }
 
@@ -138,6 +146,7 @@ class BalancingSteps : public BallSteps {
   }
 
   const Solid& solid_;
+  const NearBoundary* bound_;
   SymmetricDifference difference_;
   double gained_ = 0;
   std::vector<Ball> others_;
@@ -146,6 +155,8 @@ class BalancingSteps : public BallSteps {
 
 }  // namespace
 
-std::unique_ptr<BallSteps> balancing_steps(const Solid& solid) { return std::make_unique<BalancingSteps>(solid); }
+std::unique_ptr<BallSteps> balancing_steps(const Solid& solid, const NearBoundary* bound) {
+  return std::make_unique<BalancingSteps>(solid, bound);
+}
 
 }  // namespace medial_vk

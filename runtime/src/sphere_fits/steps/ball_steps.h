@@ -7,6 +7,7 @@
 
 #include "medial_vk/dynamic_union.h"
 #include "solid/solid.h"
+#include "sphere_fits/steps/near_boundary.h"
 
 namespace medial_vk {
 
@@ -19,6 +20,8 @@ class BallSteps {
   Result<double> take(DynamicUnion& balls, std::uint32_t slot, double& step);
   /// To be called for each added ball.
   virtual void came(const DynamicUnion& balls, std::uint32_t slot) = 0;
+  /// Replaces a ball whether or not that gains anything. Errors: those of DynamicUnion::shift().
+  virtual Status replace(DynamicUnion& balls, std::uint32_t slot, const Ball& to) { return balls.shift(slot, to); }
   /// The share of the solid's volume that the steps reduce.
   virtual double error(const DynamicUnion& balls) const = 0;
 
@@ -33,8 +36,9 @@ class BallSteps {
 std::unique_ptr<BallSteps> sliding_steps(const Solid& solid);
 
 /// Balls may reach out of the solid; the gain is the decrease of the volume between the solid and the union
-/// (docs/theory.md, "Balanced"), by the estimate of SymmetricDifference. Throws std::bad_alloc.
-std::unique_ptr<BallSteps> balancing_steps(const Solid& solid);
+/// (docs/theory.md, "Balanced"), by the estimate of SymmetricDifference. With a bound, which must outlive them, steps
+/// keep to its radii. Throws std::bad_alloc.
+std::unique_ptr<BallSteps> balancing_steps(const Solid& solid, const NearBoundary* bound = nullptr);
 
 /// Without a hole in the boundary, growth and motion within empty balls cannot leave the solid; near a hole the winding
 /// number decides, and every evaluation has its own rounding.

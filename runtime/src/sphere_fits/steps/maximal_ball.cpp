@@ -31,7 +31,7 @@ BvhHit closest_of(const Solid& solid, const Point& p, std::span<const std::uint3
 BvhHit closer_point(const Solid& solid, const Point& p, std::vector<std::uint32_t>& triangles, double bound) {
   const BvhHit known = closest_of(solid, p, triangles, bound);
   if (known.triangle != kNone) return known;
-  const BvhHit closest = solid.bvh().closest(p, bound);
+  const BvhHit closest = solid.closest(p, bound);
   if (closest.triangle != kNone) triangles.push_back(closest.triangle);
   return closest;
 }
@@ -40,7 +40,7 @@ BvhHit closer_point(const Solid& solid, const Point& p, std::vector<std::uint32_
 
 BvhHit closest_with(const Solid& solid, const Point& p, std::span<const std::uint32_t> triangles) {
   const BvhHit known = closest_of(solid, p, triangles, HUGE_VAL);
-  const BvhHit closer = solid.bvh().closest(p, std::sqrt(known.squared_distance));
+  const BvhHit closer = solid.closest(p, std::sqrt(known.squared_distance));
   return closer.triangle == kNone ? known : closer;
 }
 
