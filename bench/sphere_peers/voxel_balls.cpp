@@ -16,6 +16,9 @@ namespace {
 constexpr double kStep = 1.01;  // from the side of one grid to that of the next
 /// Of a side: a box that exceeds a whole number of cells by less, which is rounding, needs no further cell.
 constexpr double kRounding = 1e-9;
+/// Share of a radius by which balls are enlarged, so that the eight around a common corner of cells hold it by more
+/// than the error of the computed corners of their envelope, without which the proof takes these for cavities.
+constexpr double kVoxelMargin = 1e-6;
 
 /// Cubes over the box of a mesh.
 class Grid {
@@ -111,7 +114,7 @@ std::vector<Ball> voxel_cover(const Solid& solid, std::size_t count, unsigned th
   double side = 0;
   std::vector<Ball> balls;
   for (const Point& middle : most_middles(solid, count, true, threads, side)) {
-    balls.push_back({middle, 0.5 * std::sqrt(3.0) * side * (1 + kRounding)});
+    balls.push_back({middle, 0.5 * std::sqrt(3.0) * side * (1 + kVoxelMargin)});
   }
   return balls;
 }
