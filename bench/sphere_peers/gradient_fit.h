@@ -37,7 +37,7 @@ struct LossWeights {
 };
 /// Of the published variant MorphIt-B (balanced).
 constexpr LossWeights kPublishedWeights = {10, 1, 250, 50, 1, 150};
-/// Those with which the volume error of spot, with 64 and 500 balls, was least among some dozen others: with the
+/// Those with which the volume error of spot, with 64 and 500 balls, was about the least of a dozen tried: with the
 /// weights above, balls hardly reach out, and those that overlap shrink and vanish, so that fewer remain than were
 /// asked for.
 constexpr LossWeights kTunedWeights = {50, 0, 10, 50, 1, 150};

@@ -8,7 +8,8 @@
 //   vertices of the mesh, so that large triangles have candidates, too.
 // - The radius of a candidate is its distance to the boundary, not to the nearest of these points: balls then lie
 //   inside. (With that of the points they reach out by less than the points are apart, and cover a little more.)
-// - The samples to be covered are 1,500, as in the paper, or 20 for each ball, if these are more: the paper seeks some
+// - The samples to be covered are 1,500, as in the published settings, or 20 for each ball, if these are more: the
+// paper seeks some
 //   tens of balls.
 // - The offset is 2 % of the longest side of the box, or fitted: the least, within 3 %, with which the greedy choice of
 //   no more than the given number of balls covers all samples.
