@@ -18,6 +18,8 @@ constexpr std::size_t kSamplesOfBall = 20, kLeastToCover = 1500;
 constexpr std::size_t kSitesOfBall = 40, kLeastSites = 10'000;  // of the boundary, for candidates
 /// Halvings of the interval between an offset that suffices and one of half of it, on a logarithmic scale: 2^(1/32).
 constexpr int kHalvings = 5;
+/// The search ends here, where a smaller offset changes nothing.
+constexpr double kLeastOffset = 1e-6;
 
 /// The choice among candidates with one offset.
 class GreedyChoice {
@@ -123,6 +125,7 @@ std::vector<Ball> candidates_of(const Solid& solid, const SetCoverOptions& optio
 
 std::vector<Ball> greedy_set_cover(const Solid& solid, const SetCoverOptions& options) {
   const std::vector<Ball> candidates = candidates_of(solid, options);
+  if (candidates.empty() || options.count == 0) return {};
   const std::size_t number =
       options.samples > 0 ? options.samples : std::max(kLeastToCover, kSamplesOfBall * options.count);
   const std::vector<Point> samples = sample_surface(solid.mesh().mesh, number);
@@ -135,7 +138,7 @@ std::vector<Ball> greedy_set_cover(const Solid& solid, const SetCoverOptions& op
   double offset = options.offset;
   if (options.fits_offset) {
     while (!suffices(offset)) offset *= 2;
-    while (suffices(0.5 * offset)) offset *= 0.5;
+    while (offset > kLeastOffset && suffices(0.5 * offset)) offset *= 0.5;
     double too_small = 0.5 * offset;
     for (int i = 0; i < kHalvings; ++i) {
       const double middle = std::sqrt(too_small * offset);

@@ -3,14 +3,12 @@
 // Selection for 3D Shape Skeletonization", 2024), written anew from the paper's description.
 //
 // Choices that the paper leaves open, or that differ from its experiments:
-// - Candidates are the Voronoi vertices inside the solid of points of the boundary, 10,000 or 40 for each ball if these
-// are more, instead of those of the
-//   vertices of the mesh, so that large triangles have candidates, too.
+// - Candidates are the Voronoi vertices inside the solid of points of the boundary, 10,000 or, if these are more,
+//   40 for each ball, instead of those of the vertices of the mesh, so that large triangles have candidates, too.
 // - The radius of a candidate is its distance to the boundary, not to the nearest of these points: balls then lie
 //   inside. (With that of the points they reach out by less than the points are apart, and cover a little more.)
-// - The samples to be covered are 1,500, as in the published settings, or 20 for each ball, if these are more: the
-// paper seeks some
-//   tens of balls.
+// - The samples to be covered are 1,500, as in the published settings, or, if these are more, 20 for each ball: the
+//   paper seeks some tens of balls.
 // - The offset is 2 % of the longest side of the box, or fitted: the least, within 3 %, with which the greedy choice of
 //   no more than the given number of balls covers all samples.
 // - Both scores, the number of uncovered samples that a candidate covers and its distance from the nearest chosen one,
