@@ -13,7 +13,7 @@ set(posix cli/doctor_child_process cli/doctor_machine cli/doctor_advice cli/doct
 # Parts that a build without libzip, tinyxml2 and assimp lacks.
 set(absent ball_files/.* body_files/.* robots/.* rigs/.* scene_files/.* shape_files/.*svg.* output/.*npz.* output/.*urdf.*)
 # SPIRV-Tools are not there for the target; trees of measurements.
-set(other shaders/.* bench_trees/.* following/golden_motion)
+set(other shaders/.* bench_sphere_peers/.* bench_trees/.* following/golden_motion)
 string(JOIN "|" MEDIAL_VK_TESTS_ELSEWHERE ${posix} ${absent} ${other})
 
 function(medial_vk_leave_out_tests list_name)
