@@ -85,6 +85,43 @@ TEST_F(FitParts, MoreInTotalMakesNoPartWorse) {
   }
 }
 
+TEST_F(FitParts, EachPartIsSearchedOnce) {
+  options_.spheres.method = SphereMethod::kBest;
+  options_.spheres.resolution = 12;
+  std::atomic<int> extractions = 0;
+  const Extractor counted = [&](const IndexedMesh& mesh, const ExtractionOptions& options,
+                                const ProgressCallback& progress, const std::stop_token& stop) {
+    ++extractions;
+    return reference_extractor()(mesh, options, progress, stop);
+  };
+  options_.count_per_link = 30;
+  const std::vector<PartFit> fits = fit_parts(parts_, options_, counted).value();
+  EXPECT_EQ(extractions, 2);  // of the boxes, for their curves and their balls
+  EXPECT_EQ(fits[0].levels.back().size() + fits[1].levels.back().size(), 30u);
+  // Each has the balls of a fit of its own.
+  for (const std::size_t part : {0u, 1u}) {
+    SphereFitOptions own = options_.spheres;
+    own.count = fits[part].count;
+    const SphereFit alone = fit_spheres(*parts_[part].mesh, own, reference_extractor()).value();
+    ASSERT_EQ(fits[part].proved.size(), alone.levels.back().size());
+    for (std::size_t i = 0; i < fits[part].proved.size(); ++i) {
+      EXPECT_EQ(fits[part].proved[i].centre, alone.levels.back()[i].centre);
+      EXPECT_EQ(fits[part].proved[i].radius, alone.levels.back()[i].radius);
+    }
+  }
+}
+
+TEST_F(FitParts, BesideBallsOneMeshGetsTheRestWithoutACurve) {
+  parts_[1] = parts_[2];
+  parts_[1].link = "a";
+  options_.spheres.method = SphereMethod::kBest;
+  options_.spheres.resolution = 12;
+  options_.count_per_link = 20;
+  std::vector<std::size_t> counts;
+  for (const PartFit& part : fit().value()) counts.push_back(part.levels.back().size());
+  EXPECT_THAT(counts, testing::ElementsAre(19, 1, 1));
+}
+
 TEST_F(FitParts, ThePrimitivesErrorIsThatOfItsShape) {
   Geometry cylinder;
   cylinder.kind = GeometryKind::kCylinder;

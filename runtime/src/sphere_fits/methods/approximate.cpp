@@ -213,6 +213,9 @@ Result<std::vector<SphereSet>> levels_of(const Solid& solid, const SphereFitOpti
   }
   Result<SphereSet> inside = inside_spheres(solid, options, extractor, progress);
   if (!inside) return inside.error();
+  if (options.contract == SphereContract::kInside && !all_levels) {
+    return std::vector<SphereSet>{std::move(inside).value()};  // with the volumes for fewer balls
+  }
   const std::vector<Ball>& balls = inside.value().balls;
   const std::vector<std::size_t> counts =
       all_levels && !balls.empty() ? level_counts(balls.size()) : std::vector<std::size_t>{balls.size()};

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <new>
 #include <utility>
@@ -95,10 +94,12 @@ GapFinder::Gap GapFinder::widest_on_boundary() {
     const double bound = distance_to(samples_[k].at, samples_[k].slot);
     if (bound > least || k == widest_) bounds_.emplace_back(bound, k);
   }
-  std::ranges::sort(bounds_, std::greater<>());
+  // Most of the bounds come after the last one that is looked at, so a heap is enough of an order.
+  std::ranges::make_heap(bounds_);
   Gap widest;
-  for (const auto& [bound, k] : bounds_) {
-    if (!(bound > widest.size)) break;
+  for (; !bounds_.empty() && bounds_.front().first > widest.size; bounds_.pop_back()) {
+    std::ranges::pop_heap(bounds_);
+    const std::uint32_t k = bounds_.back().second;
     Sample& sample = samples_[k];
     const double size = refresh(sample);
     if (!(size > widest.size)) continue;
