@@ -160,6 +160,8 @@ def fit_spheres(
     contract: Literal["inside", "cover", "balanced"] = "inside",
     error: float = 0.0,
     max_gap: float = 0.0,
+    max_reach: float = 0.0,
+    aim: Literal["volume", "distance", "auto"] = "volume",
     method: Literal["best", "source"] = "best",
     resolution: int = 0,
     object_angle: float = 0.6,
@@ -181,6 +183,11 @@ def fit_spheres(
             "balanced" (no claim; the volume between balls and solid is small).
         error: Greatest volume error as a share of the solid's volume, in [0, 1); 0: no such goal.
         max_gap: Greatest distance from the boundary to the balls, in units of the mesh; 0: no such goal.
+        max_reach: With "cover", greatest distance by which balls reach out, in units of the mesh: as few balls as are
+            found, at most ``count`` if it is given, by method "best", without ``error`` and ``levels``; 0: no such goal.
+        aim: With "inside", what balls are chosen by: "volume" (little is uncovered), "distance" (no point of the boundary
+            is far from all balls, as in a thin plate; without ``error``), or "auto" ("distance" where that many balls
+            can have no more than half of the volume).
         method: "best", or "source": one ball per voxel (Section 7.3.2 of the source).
         resolution: Of the search for candidates; 0: derived from the count.
         object_angle: Of method "source", radians.
@@ -203,6 +210,8 @@ def fit_spheres(
         "count": count,
         "error": error,
         "max_gap": max_gap,
+        "max_reach": max_reach,
+        "aim": aim,
         "resolution": resolution,
         "object_angle": object_angle,
         "levels": levels,

@@ -24,6 +24,7 @@
 #include "part_fits/place_ball.h"
 #include "part_fits/resident_meshes.h"
 #include "part_fits/side_by_side.h"
+#include "sphere_fits/methods/by_distance.h"
 #include "sphere_fits/methods/kept_search.h"
 
 namespace medial_vk {
@@ -85,11 +86,19 @@ class Fitting {
       for (const std::size_t part : group.parts) states_[part].count = states_[part].most = group.balls;
     }
     if (Status status = fit_all(groups); !status) return status.error();
+    for (const PartGroup& group : groups) {
+      if (Status status = check_needed(group, fits_, parts_, options_); !status) return status.error();
+    }
     align_levels();
     return std::move(fits_);
   }
 
  private:
+  bool is_by_gap() const {
+    const SphereFitOptions& spheres = options_.spheres;
+    return spheres.aim == SphereAim::kDistance && has_kept_curve(spheres);
+  }
+
   bool shares() const { return options_.total > 0 || options_.count_per_link > 0; }
 
   void expect(const std::vector<std::size_t>& numbers) {
@@ -128,7 +137,7 @@ class Fitting {
 
   /// No curve is needed where a single part can have more than one ball.
   void begin(PartGroup& group, std::vector<std::size_t>& next) {
-    const bool is_shared = shares() && group.parts.size() > 1;
+    const bool is_shared = shares() && group.parts.size() > 1 && options_.spheres.max_reach == 0;
     if (is_shared && group.parts.size() - group.exact > 1) {
       for (const std::size_t part : group.parts) states_[part].curve_length = curve_length(group.equal_share());
       next.insert(next.end(), group.parts.begin(), group.parts.end());
@@ -136,6 +145,7 @@ class Fitting {
     }
     for (const std::size_t part : group.parts) {
       if (is_shared) states_[part].count = parts_[part].ball ? 1 : group.balls - group.exact;
+      if (shares() && options_.spheres.max_reach > 0) states_[part].count = 0;  // as many as are needed
     }
     settle(group, next);
   }
@@ -150,7 +160,8 @@ class Fitting {
   void distribute(PartGroup& group, std::vector<std::size_t>& next) {
     std::vector<NeedCurve> curves;
     for (const std::size_t part : group.parts) curves.push_back(states_[part].curve);
-    const std::vector<std::size_t> counts = distribute_balls(curves, group.balls);
+    const std::vector<std::size_t> counts =
+        is_by_gap() ? distribute_by_gap(curves, group.balls) : distribute_balls(curves, group.balls);
     bool is_settled = true;
     for (std::size_t i = 0; i < group.parts.size(); ++i) {
       PartState& state = states_[group.parts[i]];
@@ -165,6 +176,7 @@ class Fitting {
 
   /// The sets of the source's method are not prefixes of each other: its curves are continued instead.
   bool is_long_enough(const PartState& state) const {
+    if (is_by_gap()) return state.curve.is_ball || state.curve.ends || state.curve.gaps.size() >= state.count;
     return state.curve.is_ball || state.curve.ends || options_.spheres.method == SphereMethod::kSource ||
            state.curve.uncovered.size() >= curve_length(state.count);
   }
@@ -175,7 +187,9 @@ class Fitting {
     state.curve = {};
     state.curve.is_ball = part.ball.has_value();
     if (state.curve.is_ball) return {};
-    const SphereFitOptions options = fit_options(state.curve_length, threads);
+    SphereFitOptions options = fit_options(state.curve_length, threads);
+    if (is_by_gap()) return find_gaps(number, options);
+    options.aim = SphereAim::kVolume;
     const Result<CoverageCurve> found =
         has_kept_curve(options)
             ? search_of(number, options).curve(options.count, reporter(number), stop_)
@@ -186,6 +200,16 @@ class Fitting {
         part.volume.value_or(found.value().solid_volume.value_or(enclosed_with_middle(part.mesh->prepared())));
     for (const double covered : found.value().covered) state.curve.uncovered.push_back(whole - covered);
     state.curve.ends = found.value().ends;
+    return {};
+  }
+
+  Status find_gaps(std::size_t number, const SphereFitOptions& options) {
+    PartState& state = states_[number];
+    Result<std::vector<double>> gaps = search_of(number, options).gaps(options.count, stop_);
+    if (!gaps) return named(parts_[number], gaps.error());
+    progress_.finish(number);
+    state.curve.ends = gaps.value().size() < options.count;
+    state.curve.gaps = std::move(gaps).value();
     return {};
   }
 
@@ -247,9 +271,12 @@ class Fitting {
     }
     Stopwatch stopwatch;
     if (Status status = check_position(part); !status) return named(part, status.error());
-    const SphereFitOptions options = fit_options(state.count, threads);
+    SphereFitOptions options = fit_options(state.count, threads);
+    const Result<SphereAim> aim = aim_for(*part.mesh, options);
+    if (!aim) return named(part, aim.error());
+    options.aim = aim.value();
     Result<SphereFit> fitted = is_kept(options)
-                                   ? search_of(number, options).fit(options.count, reporter(number), stop_)
+                                   ? search_of(number, options).fit(options.count, options.aim, reporter(number), stop_)
                                    : fit_spheres(*part.mesh, options, extractor_of(number), reporter(number), stop_);
     if (!fitted) return named(part, fitted.error());
     release(number);
@@ -266,6 +293,7 @@ class Fitting {
   }
 
   void take(const Part& part, SphereFit fitted, PartFit& fit) const {
+    fit.aim = fitted.aim;
     fit.reach = std::move(fitted.reach);
     place_levels(part, fitted.levels, fit);
     fit.proved = std::move(fitted.levels.back());

@@ -61,6 +61,24 @@ Status check_group(const PartGroup& group, std::span<const Part> parts, const Pa
                            group.balls)};
 }
 
+Status check_needed(const PartGroup& group, std::span<const PartFit> fits, std::span<const Part> parts,
+                    const PartFitOptions& options) {
+  if (!is_shared(options) || options.spheres.max_reach == 0) return {};
+  std::size_t needed = 0;
+  for (const std::size_t part : group.parts) needed += fits[part].levels.back().size();
+  if (needed <= group.balls) return {};
+  if (options.total > 0) {
+    return Error{
+        ErrorCode::kUsage,
+        format_text("{} balls are found that keep to `max_reach`; raise it, or `total` from {}", needed, group.balls)};
+  }
+  const std::string link = medial_vk::quoted(parts[group.parts.front()].link);
+  return Error{
+      ErrorCode::kUsage,
+      format_text("of link {}, {} balls are found that keep to `max_reach`; raise it, or `count_per_link` from {}",
+                  link, needed, group.balls)};
+}
+
 Status check_position(const Part& part) {
   constexpr double kMost = 1e-6;  // of the diagonal
   const MeshReport& report = part.mesh->prepared().report;

@@ -33,6 +33,11 @@ Status check_part(const Part& part);
 /// Error: kUsage if there are fewer balls than parts.
 Status check_group(const PartGroup& group, std::span<const Part> parts, const PartFitOptions& options);
 
+/// With SphereFitOptions::max_reach, parts have as many balls as they need. Error: kUsage if these are more than the
+/// group may have together.
+Status check_needed(const PartGroup& group, std::span<const PartFit> fits, std::span<const Part> parts,
+                    const PartFitOptions& options);
+
 /// Bounds the loss or gain of radii where balls are moved to the frame of the link. Earlier measurements then remain
 /// true to the digits that are shown. Error: kInvalidMesh.
 Status check_position(const Part& part);

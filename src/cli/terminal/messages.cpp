@@ -29,6 +29,7 @@ constexpr ParameterWords of_follow(std::string_view parameter, std::string_view 
 
 constexpr std::string_view kRobotCount = "--count-per-link or --total";
 constexpr ParameterWords kParameterWords[] = {
+    {"aim", {}, "--by", "--by"},
     {"amplitude", "--perturb", {}, {}},
     {"angle", "--sheet-angle", {}, {}},
     library_only("ball"),
@@ -68,6 +69,7 @@ constexpr ParameterWords kParameterWords[] = {
     library_only("lower"),
     {"margin", "--margin", {}, {}, {}, {}, {}, {}, "--margin", "--margin"},
     {"max_gap", {}, "--max-gap", "--max-gap"},
+    {"max_reach", {}, "--max-reach", "--max-reach"},
     {"medial_mesh", "--medial-mesh", {}, {}},
     {"memory_budget",
      "--memory",

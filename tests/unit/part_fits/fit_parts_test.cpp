@@ -117,9 +117,53 @@ TEST_F(FitParts, BesideBallsOneMeshGetsTheRestWithoutACurve) {
   options_.spheres.method = SphereMethod::kBest;
   options_.spheres.resolution = 12;
   options_.count_per_link = 20;
+  const std::vector<PartFit> fits = fit().value();
   std::vector<std::size_t> counts;
-  for (const PartFit& part : fit().value()) counts.push_back(part.levels.back().size());
+  for (const PartFit& part : fits) counts.push_back(part.levels.back().size());
   EXPECT_THAT(counts, testing::ElementsAre(19, 1, 1));
+}
+
+TEST_F(FitParts, ByDistanceTheWidestGapOfAllPartsIsNarrow) {
+  parts_[1] = box_part("a", "plate", {1.5, 1, 0.02});
+  options_.spheres.method = SphereMethod::kBest;
+  options_.spheres.resolution = 16;
+  options_.total = 25;
+  std::vector<double> widest;
+  for (const SphereAim aim : {SphereAim::kVolume, SphereAim::kDistance}) {
+    options_.spheres.aim = aim;
+    const std::vector<PartFit> fits = fit().value();
+    EXPECT_EQ(fits[0].count + fits[1].count + fits[2].count, 25u);
+    double gap = 0;
+    for (const PartFit& part : fits) {
+      if (!part.measures) continue;
+      EXPECT_TRUE(part.measures->inside.proved());
+      gap = std::max(gap, part.measures->distances.boundary_to_balls.upper);
+    }
+    widest.push_back(gap);
+  }
+  EXPECT_LT(widest[1], 0.7 * widest[0]);
+}
+
+TEST_F(FitParts, WithAGreatestReachPartsHaveTheBallsThatTheyNeed) {
+  options_.spheres.method = SphereMethod::kBest;
+  options_.spheres.contract = SphereContract::kCover;
+  options_.spheres.max_reach = 0.2;
+  options_.spheres.balls_only = true;
+  const std::vector<PartFit> alone = fit().value();
+  for (const PartFit& part : alone) EXPECT_LE(part.reach.back().greatest, 0.2);
+  const std::size_t needed = alone[0].levels.back().size() + alone[1].levels.back().size();
+  EXPECT_GT(needed, 8u);
+  options_.count_per_link = needed;
+  const std::vector<PartFit> enough = fit().value();
+  EXPECT_EQ(enough[0].levels.back().size(), alone[0].levels.back().size());
+  options_.count_per_link = needed - 1;
+  EXPECT_EQ(fit().error().message,
+            "of link \"a\", " + std::to_string(needed) +
+                " balls are found that keep to `max_reach`; raise it, or `count_per_link` from " +
+                std::to_string(needed - 1));
+  options_.count_per_link = 0;
+  options_.total = needed;  // and one more for the part that is a ball
+  EXPECT_THAT(fit().error().message, HasSubstr("raise it, or `total` from"));
 }
 
 TEST_F(FitParts, ThePrimitivesErrorIsThatOfItsShape) {

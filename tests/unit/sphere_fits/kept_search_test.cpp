@@ -18,7 +18,7 @@ class KeptSearches : public testing::Test {
     options_.threads = 1;
   }
   void expect_the_fit_of(KeptSearch& search, std::size_t count) {
-    const Result<SphereFit> kept = search.fit(count);
+    const Result<SphereFit> kept = search.fit(count, options_.aim);
     ASSERT_TRUE(kept.ok()) << kept.error().message;
     options_.count = count;
     const SphereFit own = fit_spheres(mesh_, options_, reference_extractor()).value();
@@ -46,6 +46,16 @@ TEST_F(KeptSearches, FitsAreThoseOfSearchesOfTheirOwnInAnyOrder) {
   }
 }
 
+TEST_F(KeptSearches, BallsByDistanceLikewise) {
+  options_.aim = SphereAim::kDistance;
+  for (const bool levels : {false, true}) {
+    options_.levels = levels;
+    KeptSearch search(mesh_, options_, 40, reference_extractor());
+    EXPECT_EQ(search.gaps(23).value().size(), 23u);
+    for (const std::size_t count : {12u, 1u, 30u, 11u, 29u, 30u}) expect_the_fit_of(search, count);
+  }
+}
+
 TEST_F(KeptSearches, TheCurveIsContinued) {
   KeptSearch search(mesh_, options_, 40, reference_extractor());
   ASSERT_EQ(search.curve(9).value().covered.size(), 9u);
@@ -68,17 +78,17 @@ TEST_F(KeptSearches, AreNotSearchedTwice) {
   };
   KeptSearch search(mesh_, options_, 40, counted);
   ASSERT_TRUE(search.curve(20).ok());
-  ASSERT_TRUE(search.fit(20).ok());
+  ASSERT_TRUE(search.fit(20, SphereAim::kVolume).ok());
   ASSERT_TRUE(search.curve(30).ok());
   EXPECT_EQ(extractions, 1);
 }
 
 TEST_F(KeptSearches, ARequestToStopEndsTheCallAndNotTheSearch) {
   KeptSearch search(mesh_, options_, 40, reference_extractor());
-  ASSERT_TRUE(search.fit(5).ok());
+  ASSERT_TRUE(search.fit(5, SphereAim::kVolume).ok());
   std::stop_source stop;
   stop.request_stop();
-  const Result<SphereFit> stopped = search.fit(20, {}, stop.get_token());
+  const Result<SphereFit> stopped = search.fit(20, SphereAim::kVolume, {}, stop.get_token());
   ASSERT_FALSE(stopped.ok());
   EXPECT_EQ(stopped.error().code, ErrorCode::kInterrupted);
   expect_the_fit_of(search, 20);
@@ -92,6 +102,11 @@ TEST(KeptSearch, WhichFitsAreKept) {
   EXPECT_FALSE(is_kept(options));
   EXPECT_TRUE(has_kept_curve(options));
   options.max_gap = 0;
+  options.aim = SphereAim::kDistance;
+  EXPECT_TRUE(is_kept(options));
+  options.aim = SphereAim::kAuto;  // which of the two is decided before
+  EXPECT_FALSE(is_kept(options));
+  options.aim = SphereAim::kVolume;
   options.contract = SphereContract::kCover;
   EXPECT_FALSE(is_kept(options));
   EXPECT_TRUE(has_kept_curve(options));

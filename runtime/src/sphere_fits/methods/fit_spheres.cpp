@@ -5,14 +5,16 @@
 
 #include "base/host_memory.h"
 #include "sphere_fits/methods/approximate.h"
+#include "sphere_fits/methods/by_distance.h"
 #include "sphere_fits/methods/fit_steps.h"
 #include "sphere_fits/methods/prefixes.h"
 
 namespace medial_vk {
 namespace {
 
-Result<SphereFit> fit(const Solid& solid, const SphereFitOptions& options, const Extractor& extractor,
+Result<SphereFit> fit(const Solid& solid, SphereFitOptions options, const Extractor& extractor,
                       const SphereProgress& progress) {
+  options.aim = aim_for(solid, options);
   Result<std::vector<SphereSet>> sets = options.levels ? approximate_in_levels(solid, options, extractor, progress)
                                                        : approximate_once(solid, options, extractor, progress);
   if (!sets) return sets.error();
@@ -23,7 +25,8 @@ Result<SphereFit> fit(const Solid& solid, const SphereFitOptions& options, const
 Result<SphereSet> inside_of_at_least(const Solid& solid, SphereFitOptions options, const Extractor& extractor,
                                      const SphereProgress& progress) {
   options.contract = SphereContract::kInside;
-  options.error = options.max_gap = 0;
+  options.error = options.max_gap = options.max_reach = 0;
+  options.aim = SphereAim::kVolume;
   Result<SphereSet> set = approximate_by_spheres(solid, options, extractor, progress);
   for (int tries = 0; !set && set.error().code == ErrorCode::kUsage && tries < 6; ++tries) {
     options.count *= 2;

@@ -109,6 +109,7 @@ Result<SphereFit> finish_fit(const Solid& solid, std::vector<SphereSet> sets, co
   if (Status status = check_contract(options.contract, measured.value()); !status) return status.error();
   SphereFit out;
   out.measures = std::move(measured).value();
+  out.aim = options.aim;
   if (solid.has_volume()) out.solid_volume = solid.volume();
   for (SphereSet& set : sets) {
     out.reach.push_back(reach_of(solid, options.contract, set.balls));

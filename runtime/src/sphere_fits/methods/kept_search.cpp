@@ -9,6 +9,7 @@
 
 #include "base/host_memory.h"
 #include "sphere_fits/methods/best_method.h"
+#include "sphere_fits/methods/by_distance.h"
 #include "sphere_fits/methods/fit_steps.h"
 #include "sphere_fits/methods/prefixes.h"
 
@@ -29,17 +30,42 @@ struct KeptSearch::State {
   const Extractor extractor;  // reached by it
   std::optional<Solid> solid;
   std::unique_ptr<GrowingBalls> balls;
+  std::optional<BallSpread> spread;
+
+  Status build() {
+    if (solid) return {};
+    Result<Solid> built = Solid::build(mesh);
+    if (!built) return built.error();
+    solid.emplace(std::move(built).value());
+    return {};
+  }
 
   Status grow(std::size_t count, const SphereProgress& progress) {
+    if (Status status = build(); !status) return status;
     if (!balls) {
-      Result<Solid> built = Solid::build(mesh);
-      if (!built) return built.error();
-      solid.emplace(std::move(built).value());
       Result<std::unique_ptr<GrowingBalls>> begun = grow_inside(*solid, options, extractor);
       if (!begun) return begun.error();
       balls = std::move(begun).value();
     }
     return balls->grow(std::min(count, options.count), progress);
+  }
+
+  Result<BallSpread*> spread_out() {
+    if (Status status = build(); !status) return status.error();
+    if (!spread) spread.emplace(*solid, Threads(options.threads, [this] { return !stop.stop_requested(); }));
+    return &*spread;
+  }
+
+  Result<std::vector<SphereSet>> sets_for(std::size_t count, SphereAim aim, const SphereProgress& progress) {
+    if (aim != SphereAim::kDistance) {
+      if (Status status = grow(count, progress); !status) return status.error();
+      return sets(count);
+    }
+    const Result<BallSpread*> spread_balls = spread_out();
+    if (!spread_balls) return spread_balls.error();
+    SphereFitOptions own = options;
+    own.count = count;
+    return sets_by_distance(*spread_balls.value(), own);
   }
 
   /// A set for each level, or the last of them alone.
@@ -60,6 +86,8 @@ struct KeptSearch::State {
     stop = of_call;
     try {
       return work();
+    } catch (const Stopped&) {
+      return Error{ErrorCode::kInterrupted, "interrupted"};
     } catch (const std::bad_alloc&) {
       return out_of_memory("fitting spheres", "try a lower `count`");
     } catch (const std::exception& error) {
@@ -86,13 +114,23 @@ Result<CoverageCurve> KeptSearch::curve(std::size_t count, const StageProgress& 
   });
 }
 
-Result<SphereFit> KeptSearch::fit(std::size_t count, const StageProgress& progress, const std::stop_token& stop) {
+Result<std::vector<double>> KeptSearch::gaps(std::size_t count, const std::stop_token& stop) {
+  return state_->guarded(stop, [&]() -> Result<std::vector<double>> {
+    const Result<BallSpread*> spread = state_->spread_out();
+    if (!spread) return spread.error();
+    return spread.value()->gaps(count);
+  });
+}
+
+Result<SphereFit> KeptSearch::fit(std::size_t count, SphereAim aim, const StageProgress& progress,
+                                  const std::stop_token& stop) {
   return state_->guarded(stop, [&]() -> Result<SphereFit> {
     const SphereProgress on_progress = progress_of_fit(state_->options, progress, stop);
-    if (Status status = state_->grow(count, on_progress); !status) return status.error();
-    Result<std::vector<SphereSet>> sets = state_->sets(count);
+    Result<std::vector<SphereSet>> sets = state_->sets_for(count, aim, on_progress);
     if (!sets) return sets.error();
-    return finish_fit(*state_->solid, std::move(sets).value(), state_->options, on_progress);
+    SphereFitOptions options = state_->options;
+    options.aim = aim;
+    return finish_fit(*state_->solid, std::move(sets).value(), options, on_progress);
   });
 }
 
@@ -102,7 +140,7 @@ bool has_kept_curve(const SphereFitOptions& options) {
 
 bool is_kept(const SphereFitOptions& options) {
   return has_kept_curve(options) && options.contract == SphereContract::kInside && options.count > 0 &&
-         options.error == 0 && options.max_gap == 0;
+         options.error == 0 && options.max_gap == 0 && options.aim != SphereAim::kAuto;
 }
 
 }  // namespace medial_vk
