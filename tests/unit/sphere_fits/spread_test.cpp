@@ -166,6 +166,25 @@ TEST(ReachCover, CoversAndReachesOutNoFarther) {
   }
 }
 
+TEST(ReachCover, ASurfaceThatEnclosesNothingIsCoveredToo) {
+  Mesh mesh = test::make_box({1, 1, 1});
+  // A membrane far from it: no ball lies inside, so points of it are the centres.
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), {{3, 0, 0}, {4, 0, 0}, {3, 1, 0}});
+  mesh.triangles.push_back({first, first + 1, first + 2});
+  const Shape shape(mesh);
+  const SphereFit fit = fit_to(shape, by_reach(0.3)).value();
+  EXPECT_TRUE(fit.measures.cover.surface_proved());
+  EXPECT_LE(fit.reach.back().greatest, 0.3);
+  std::size_t on_membrane = 0;
+  for (const Ball& ball : fit.levels.back()) {
+    if (ball.centre[0] > 2) ++on_membrane;
+  }
+  // Half a unit of area, by discs of radius 0.3 or less; and not many more.
+  EXPECT_GE(on_membrane, 2u);
+  EXPECT_LE(on_membrane, 12u);
+}
+
 TEST(ReachCover, NeedsFewBalls) {
   const double thickness = 0.02, reach = 0.08;
   const Shape plate(test::make_box({1, 0.6, thickness}));

@@ -37,8 +37,9 @@ class Reports {
 /// The fewest balls inside that leave no wider gap, or an error that names the number that is needed.
 Result<std::vector<Ball>> fewest_within(const Solid& solid, double distance, const char* goal,
                                         const SphereFitOptions& options, Reports& reports) {
+  const bool for_cover = options.contract == SphereContract::kCover;
   Result<std::vector<Ball>> found =
-      spread_within(solid, distance, kMostBalls, reports.threads(options.threads), [&](double done) {
+      spread_within(solid, distance, for_cover, kMostBalls, reports.threads(options.threads), [&](double done) {
         if (!reports(done)) throw Stopped();
       });
   if (!found) {

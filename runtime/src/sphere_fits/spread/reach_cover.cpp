@@ -39,7 +39,7 @@ std::size_t places_for(const Solid& solid, double reach) {
 
 class ReachSearch {
  public:
-  ReachSearch(const Solid& solid, double reach, std::size_t most, const Threads& threads,
+  ReachSearch(const Solid& solid, double reach, bool for_cover, std::size_t most, const Threads& threads,
               const std::function<void(double)>& report)
       : solid_(solid),
         reach_(reach),
@@ -49,7 +49,7 @@ class ReachSearch {
         threads_(threads),
         report_(report),
         places_(places_for(solid, reach)),
-        search_(solid, places_of(solid, places_), threads) {}
+        search_(solid, places_of(solid, places_), threads, for_cover) {}
 
   Result<std::vector<Ball>> run() {
     if (!fill()) return too_many();
@@ -154,9 +154,9 @@ class ReachSearch {
 
 }  // namespace
 
-Result<std::vector<Ball>> spread_within(const Solid& solid, double reach, std::size_t most, const Threads& threads,
-                                        const std::function<void(double)>& report) {
-  return ReachSearch(solid, reach, most, threads, report).run();
+Result<std::vector<Ball>> spread_within(const Solid& solid, double reach, bool for_cover, std::size_t most,
+                                        const Threads& threads, const std::function<void(double)>& report) {
+  return ReachSearch(solid, reach, for_cover, most, threads, report).run();
 }
 
 std::vector<Ball> grown_balls(const Solid& solid, const std::vector<Ball>& inside, double reach) {

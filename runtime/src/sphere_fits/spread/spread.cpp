@@ -35,12 +35,15 @@ Ball large_ball(const Solid& solid) {
   Ball largest = {};
   for (const BoundarySample& sample : places_of(solid, kSamples)) {
     std::optional<Ball> ball;
-    for (double depth = 1e-3 * solid.diagonal(); depth > 4 * solid.rounding() && !ball; depth /= 4) {
+    double depth = 1e-3 * solid.diagonal();
+    while (!ball && depth > 4 * solid.rounding()) {
       ball = maximal_through(solid, sample.at + depth * sample.inward);
+      depth /= 4;
     }
     if (ball && ball->radius > largest.radius) largest = *ball;
   }
-  for (double step = 0.5 * largest.radius; step > 1e-3 * largest.radius;) {
+  double step = 0.5 * largest.radius;
+  while (step > 1e-3 * largest.radius) {
     const Ball before = largest;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       for (const double sign : {-1.0, 1.0}) {

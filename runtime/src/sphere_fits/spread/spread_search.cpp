@@ -29,10 +29,11 @@ std::vector<BoundarySample> places_of(const Solid& solid, std::size_t count) {
   return sample_boundary(solid.mesh().mesh, count);
 }
 
-SpreadSearch::SpreadSearch(const Solid& solid, std::vector<BoundarySample> places, Threads threads)
+SpreadSearch::SpreadSearch(const Solid& solid, std::vector<BoundarySample> places, Threads threads, bool points_too)
     : solid_(solid),
       places_(std::move(places)),
       threads_(std::move(threads)),
+      points_too_(points_too),
       nearest_(places_.size(), {kFar, kFar, 0}),
       dead_(places_.size()) {
   arrange(0, places_.size());
@@ -150,8 +151,10 @@ std::optional<Ball> SpreadSearch::ball_near(const Point& p) const {
   const Point at = solid_.closest(p).point, across = at - p;
   const double away = length(across);
   if (!(away > 0)) return std::nullopt;
-  for (double depth = kDepths.front() * solid_.diagonal(); depth > 4 * solid_.rounding(); depth /= 4) {
+  double depth = kDepths.front() * solid_.diagonal();
+  while (depth > 4 * solid_.rounding()) {
     if (std::optional<Ball> ball = ball_through(at + (depth / away) * across)) return ball;
+    depth /= 4;
   }
   return std::nullopt;
 }
@@ -168,6 +171,7 @@ std::vector<Ball> SpreadSearch::balls_at(const BoundarySample& place, double gap
     return found;
   }
   std::vector<double> depths;
+  depths.reserve(kDepths.size() + 1);
   for (const double share : kDepths) depths.push_back(share * solid_.diagonal());
   if (std::isfinite(gap)) depths.push_back(0.5 * gap);
   for (double depth : depths) {
@@ -210,6 +214,7 @@ bool SpreadSearch::insert() {
       best = ball;
       most = here;
     }
+    if (!best && points_too_) best = Ball{places_[farthest].at, 0};
     if (best) {
       take(*best);
       return true;
@@ -292,7 +297,7 @@ bool SpreadSearch::exchange() {
 void SpreadSearch::improve(int rounds) {
   constexpr int kPatience = 3;
   constexpr double kEnough = 5e-3;  // a smaller fall of the gap is none
-  if (balls_.size() < 1) return;
+  if (balls_.empty()) return;
   std::vector<Ball> best = balls_;
   double least = gap(), at_rest = least;
   int idle = 0;

@@ -20,8 +20,10 @@ namespace medial_vk {
 /// throw std::bad_alloc and Stopped.
 class SpreadSearch {
  public:
-  /// `places`: whose distances count, at least one; those inside have no inward normal. Keeps a reference to the solid.
-  SpreadSearch(const Solid& solid, std::vector<BoundarySample> places, Threads threads);
+  /// `places`: whose distances count, at least one; those inside have no inward normal. `points_too`: where no ball is
+  /// found, as on a surface that encloses nothing, the place itself is one, of radius 0. Keeps a reference to the
+  /// solid.
+  SpreadSearch(const Solid& solid, std::vector<BoundarySample> places, Threads threads, bool points_too = false);
 
   /// Adds a ball at the farthest place; false: none is found that is nearer to a place.
   bool insert();
@@ -66,6 +68,7 @@ class SpreadSearch {
   std::vector<BoundarySample> places_;
   std::vector<Block> blocks_;
   Threads threads_;
+  bool points_too_;
   std::vector<Ball> balls_;
   std::vector<Nearest> nearest_;    // by place
   std::vector<std::uint8_t> dead_;  // by place: no ball nearer to it is found
