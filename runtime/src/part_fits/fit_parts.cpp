@@ -116,10 +116,13 @@ class Fitting {
       expect(next);
       // The most work first. Equal ones keep their order.
       std::ranges::stable_sort(next, std::greater<>(), [&](std::size_t part) { return balls_to_find(part); });
-      const Status status = work_side_by_side(parts_, next, options_.threads, [&](std::size_t part, unsigned threads) {
-        return states_[part].is_settled ? fit_part(part, threads) : find_curve(part, threads);
+      const Status done = work_side_by_side(parts_, next, options_.threads, [&](std::size_t part, unsigned threads) {
+        Stopwatch stopwatch;
+        Status status = states_[part].is_settled ? fit_part(part, threads) : find_curve(part, threads);
+        fits_[part].measurements.seconds += stopwatch.lap();
+        return status;
       });
-      if (!status) return status;
+      if (!done) return done;
       next.clear();
       for (PartGroup& group : groups) {
         if (!group.is_settled) distribute(group, next);
@@ -269,7 +272,6 @@ class Fitting {
       fit.of_shape = true;
       return {};
     }
-    Stopwatch stopwatch;
     if (Status status = check_position(part); !status) return named(part, status.error());
     SphereFitOptions options = fit_options(state.count, threads);
     const Result<SphereAim> aim = aim_for(*part.mesh, options);
@@ -282,7 +284,6 @@ class Fitting {
     release(number);
     progress_.finish(number);
     take(part, std::move(fitted).value(), fit);
-    fit.measurements.seconds = stopwatch.lap();
     return {};
   }
 

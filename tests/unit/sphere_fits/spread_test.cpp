@@ -220,6 +220,8 @@ TEST(ReachCover, GoalsThatExcludeEachOther) {
   SphereFitOptions cover = by_count(SphereAim::kDistance, 8);
   cover.contract = SphereContract::kCover;
   EXPECT_THAT(fit_to(cube, cover).error().message, HasSubstr("other values of `aim`"));
+  cover.aim = SphereAim::kAuto;
+  EXPECT_THAT(fit_to(cube, cover).error().message, HasSubstr("other values of `aim`"));
 }
 
 TEST(ReachCover, StopsOnRequest) {

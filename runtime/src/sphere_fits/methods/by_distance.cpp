@@ -12,6 +12,12 @@
 namespace medial_vk {
 namespace {
 
+/// Whether another aim than the volume is possible.
+bool may_have_aim(const SphereFitOptions& options) {
+  return options.method == SphereMethod::kBest && options.contract == SphereContract::kInside && options.error == 0 &&
+         !options.for_distances;
+}
+
 Error excluded(const char* message) { return {ErrorCode::kUsage, message}; }
 
 /// Progress from the threads of a search.
@@ -56,12 +62,12 @@ Result<std::vector<Ball>> fewest_within(const Solid& solid, double distance, con
 }  // namespace
 
 SphereAim aim_for(const Solid& solid, const SphereFitOptions& options) {
-  if (options.aim != SphereAim::kAuto) return options.aim;
+  if (options.aim != SphereAim::kAuto || !may_have_aim(options)) return options.aim;
   return options.count > 0 && options.count <= sparse_count(solid) ? SphereAim::kDistance : SphereAim::kVolume;
 }
 
 Result<SphereAim> aim_for(const IndexedMesh& mesh, const SphereFitOptions& options) {
-  if (options.aim != SphereAim::kAuto) return options.aim;
+  if (options.aim != SphereAim::kAuto || !may_have_aim(options)) return options.aim;
   const Result<Solid> solid = Solid::build(mesh);
   if (!solid) return solid.error();
   return aim_for(solid.value(), options);
@@ -71,14 +77,14 @@ Status check_distances(const Solid& solid, const SphereFitOptions& options) {
   if (!std::isfinite(options.max_reach) || options.max_reach < 0) {
     return excluded("`max_reach` must be finite and not negative");
   }
-  const bool is_other = options.method != SphereMethod::kBest || options.error > 0 || options.for_distances;
-  if (options.aim != SphereAim::kVolume && (is_other || options.contract != SphereContract::kInside)) {
+  if (options.aim != SphereAim::kVolume && !may_have_aim(options)) {
     return excluded(
         "other values of `aim` than volume are of the method best with `contract` inside, by `count` or "
         "`max_gap`");
   }
   if (options.max_reach == 0) return {};
-  if (is_other || options.contract != SphereContract::kCover || options.levels) {
+  const bool is_best = options.method == SphereMethod::kBest && options.error == 0 && !options.for_distances;
+  if (!is_best || options.contract != SphereContract::kCover || options.levels) {
     return excluded("`max_reach` is of the method best with `contract` cover, with or without `count`");
   }
   if (options.max_reach < 16 * solid.rounding()) return excluded("`max_reach` is below the rounding of distances");

@@ -9,7 +9,7 @@
 
 namespace medial_vk {
 
-/// kVolume or kDistance, for valid options. Throws std::bad_alloc.
+/// kVolume or kDistance; for options that check_distances() refuses, the aim that they have. Throws std::bad_alloc.
 SphereAim aim_for(const Solid& solid, const SphereFitOptions& options);
 /// The same. Errors: those of Solid::build().
 Result<SphereAim> aim_for(const IndexedMesh& mesh, const SphereFitOptions& options);
