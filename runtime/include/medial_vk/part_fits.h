@@ -77,8 +77,8 @@ struct PartFit {
 /// A number of balls for several parts is distributed by need: each part gets one ball, and every further ball goes to
 /// the part where it covers the most volume that is not yet covered (measure_coverage_curve()), for every contract.
 /// With the method best, a larger number gives no part fewer balls and, with contract inside, no part a larger error.
-/// With SphereAim::kDistance, every further ball goes to the part with the widest gap instead, so that the widest one of
-/// all is narrow; kAuto is decided part by part, for the numbers that are distributed by volume. With
+/// With SphereAim::kDistance, every further ball goes to the part with the widest gap instead, so that the widest one
+/// of all is narrow; kAuto is decided part by part, for the numbers that are distributed by volume. With
 /// SphereFitOptions::max_reach, parts have as many balls as they need, and it is an error (kUsage) if these are more
 /// than the number for the link, or in total.
 ///

@@ -42,7 +42,8 @@ SphereFitOptions by_reach(double reach, std::size_t count = 0) {
 }
 
 std::vector<Mesh> thin_solids() {
-  return {test::make_box({1, 0.6, 0.02}), test::make_cup(0.5, 0.03, 0.6, 24), test::make_plate_with_hole(1, 0.03, 0.4)};
+  return {test::make_box({1, 0.6, 0.02}), test::make_cup(0.5, 0.03, 0.6, 24), test::make_plate_with_hole(1, 0.03, 0.4),
+          test::make_l_shape(1, 0.03, 0.5)};  // a bracket
 }
 
 /// Whether all balls hold their place in the solid, by the library's own proof.

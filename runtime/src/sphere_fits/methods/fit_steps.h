@@ -20,9 +20,9 @@ SphereProgress progress_of_fit(const SphereFitOptions& options, const StageProgr
 /// references.
 Extractor stopped_by(const Extractor& extractor, const std::stop_token& stop);
 
-/// The sets of a search, the smallest first, with the proofs and measures of the last one. The aim of the options is the
-/// one that they were chosen by. Errors: kInternal if balls
-/// violate the contract, those of the measures. Throws std::bad_alloc.
+/// The sets of a search, the smallest first, with the proofs and measures of the last one. The aim of the options is
+/// the one that they were chosen by. Errors: kInternal if balls violate the contract, those of the measures. Throws
+/// std::bad_alloc.
 Result<SphereFit> finish_fit(const Solid& solid, std::vector<SphereSet> sets, const SphereFitOptions& options,
                              const SphereProgress& progress);
 
