@@ -104,6 +104,8 @@ def fit_parts(
     error: float = 0.0,
     max_gap: float = 0.0,
     max_distance: float = 0.0,
+    max_reach: float = 0.0,
+    aim: Literal["volume", "distance", "auto"] = "volume",
     method: Literal["best", "source"] = "best",
     resolution: int = 0,
     object_angle: float = 0.6,
@@ -115,15 +117,16 @@ def fit_parts(
     progress: Progress = None,
 ) -> list[PartFit]:
     """Fits balls to every part, proves their contract, and measures them, as ``fit_spheres()`` does. Numbers of balls for
-    several parts are distributed among them by the volume that one more ball would cover.
+    several parts are distributed among them by the volume that one more ball would cover, or, with ``aim`` "distance", to
+    the part with the widest gap.
 
     Args:
         parts: Meshes and balls, in one unit.
         count: Greatest number of balls of each part; without effect beside one of the next two.
         count_per_link: Greatest number of balls of each link, for its parts together.
         total: Greatest number of balls of all parts together.
-        contract, error, max_gap, max_distance, method, resolution, object_angle, levels, balls_only, for_distances: As
-            of ``fit_spheres()``, for each part.
+        contract, error, max_gap, max_reach, max_distance, aim, method, resolution, object_angle, levels, balls_only,
+            for_distances: As of ``fit_spheres()``, for each part.
         threads: Of the host, 0: one per core. The result does not depend on it.
         context: Where candidates are computed; None: ``default_context()``.
         progress: A function of the stage's name and its share, or True for a bar.
@@ -146,6 +149,8 @@ def fit_parts(
         "error": error,
         "max_gap": max_gap,
         "max_distance": max_distance,
+        "max_reach": max_reach,
+        "aim": aim,
         "resolution": resolution,
         "object_angle": object_angle,
         "levels": levels,

@@ -161,6 +161,8 @@ def fit_spheres(
     error: float = 0.0,
     max_gap: float = 0.0,
     max_distance: float = 0.0,
+    max_reach: float = 0.0,
+    aim: Literal["volume", "distance", "auto"] = "volume",
     method: Literal["best", "source"] = "best",
     resolution: int = 0,
     object_angle: float = 0.6,
@@ -184,6 +186,11 @@ def fit_spheres(
         max_gap: Greatest distance from the boundary to the balls, in units of the mesh; 0: no such goal.
         max_distance: Contract "balanced": greatest Hausdorff distance of the boundary and the surface of the balls, in
             units of the mesh; 0: no such bound. With ``count`` alone, a bound for so many balls, else a goal.
+        max_reach: With "cover", greatest distance by which balls reach out, in units of the mesh: as few balls as are
+            found, at most ``count`` if it is given, by method "best", without ``error`` and ``levels``; 0: no such goal.
+        aim: With "inside", what balls are chosen by: "volume" (little is uncovered), "distance" (no point of the boundary
+            is far from all balls, as in a thin plate; without ``error``), or "auto" ("distance" where that many balls
+            can have no more than half of the volume).
         method: "best", or "source": one ball per voxel (Section 7.3.2 of the source).
         resolution: Of the search for candidates; 0: derived from the count.
         object_angle: Of method "source", radians.
@@ -207,6 +214,8 @@ def fit_spheres(
         "error": error,
         "max_gap": max_gap,
         "max_distance": max_distance,
+        "max_reach": max_reach,
+        "aim": aim,
         "resolution": resolution,
         "object_angle": object_angle,
         "levels": levels,

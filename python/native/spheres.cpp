@@ -55,6 +55,11 @@ SphereFitOptions read_fit_options(Options& options) {
   options.read("error", made.error);
   options.read("max_gap", made.max_gap);
   options.read("max_distance", made.max_distance);
+  options.read("max_reach", made.max_reach);
+  options.read(
+      "aim", made.aim,
+      std::array{Choice<SphereAim>{"volume", SphereAim::kVolume}, Choice<SphereAim>{"distance", SphereAim::kDistance},
+                 Choice<SphereAim>{"auto", SphereAim::kAuto}});
   options.read("resolution", made.resolution);
   options.read("object_angle", made.object_angle);
   options.read("levels", made.levels);

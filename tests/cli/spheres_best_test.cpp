@@ -19,6 +19,7 @@ using test::SpheresCommand;
 using test::ToolResult;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 TEST_F(SpheresCommand, BestBallsInsideAreProvedCheckedAndMeasured) {
@@ -96,6 +97,47 @@ TEST_F(SpheresCommand, CoversAndBalancedSetsMeetGoals) {
   ASSERT_EQ(best({"part.obj", "--contract", "balanced", "--error", "0.25", "--max-gap", "0.1", "-q"}).exit_code, 0);
   EXPECT_GE(report()["num_spheres"], balanced);
   EXPECT_LE(measures()["distances"]["boundary_to_balls"]["lower"], 0.1);
+}
+
+TEST_F(SpheresCommand, ThinPartsAreSpreadOverCoveredAndAdvisedOn) {
+  test::write_file(path("plate.obj"), test::to_obj(test::make_box({2, 1.2, 0.04})));
+  const ToolResult volume = best({"plate.obj", "--count", "20"});
+  ASSERT_EQ(volume.exit_code, 0) << volume.err;
+  const json by_volume = report()["parts"][0];
+  EXPECT_EQ(by_volume["by"], "volume");
+  // 20 balls of radius 0.02 hold 20 / 2865 of the volume, as they are apart.
+  const json advice = by_volume["advice"];
+  EXPECT_NEAR(advice["uncovered"], 1 - 20 / 2864.8, 1e-4);
+  EXPECT_NEAR(advice["inside_for_a_quarter"], 2865, 2);
+  EXPECT_TRUE(advice["by_distance"]);
+  EXPECT_EQ(advice["cover"]["reach"], by_volume["measures"]["distances"]["solid_to_balls"]["upper"]);
+  EXPECT_THAT(volume.err, HasSubstr("advice    99.3 % uncovered; about 2,86"));
+  EXPECT_THAT(volume.err, HasSubstr("--by auto to spread those inside evenly"));
+
+  const ToolResult distance = best({"plate.obj", "--count", "20", "--by", "auto", "--check"});
+  ASSERT_EQ(distance.exit_code, 0) << distance.err;
+  const json by_distance = report()["parts"][0];
+  EXPECT_EQ(by_distance["by"], "distance");
+  EXPECT_FALSE(by_distance["advice"]["by_distance"]);
+  EXPECT_LT(by_distance["advice"]["cover"]["reach"], advice["cover"]["reach"]);
+  EXPECT_THAT(distance.err, Not(HasSubstr("--by auto")));
+
+  // As many spheres cover the plate with the reach that the advice gives, or fewer, and add no more.
+  const auto reach = by_distance["advice"]["cover"]["reach"].get<double>();
+  const std::string reach_text = std::to_string(reach + 1e-6);
+  const ToolResult cover = best({"plate.obj", "--contract", "cover", "--max-reach", reach_text, "--check"});
+  ASSERT_EQ(cover.exit_code, 0) << cover.err;
+  EXPECT_LE(report()["num_spheres"], 24);
+  EXPECT_LE(report()["parts"][0]["reach_out"]["worst"], std::stod(reach_text));
+  EXPECT_TRUE(report()["parts"][0]["advice"].is_null());
+  EXPECT_EQ(report()["goals"]["max_reach"], std::stod(reach_text));
+
+  const ToolResult few = best({"plate.obj", "--contract", "cover", "--max-reach", "0.1", "--count", "5"});
+  EXPECT_EQ(few.exit_code, 2);
+  EXPECT_THAT(few.err, testing::ContainsRegex("no 5 balls are found that keep to --max-reach, but [0-9]+ are; raise "
+                                              "--count or --max-reach"));
+  ASSERT_EQ(best({"part.obj", "--count", "60", "-q"}).exit_code, 0);
+  EXPECT_TRUE(report()["parts"][0]["advice"].is_null());  // a thick part
 }
 
 TEST_F(SpheresCommand, GoalsThatMeanNothingAreRefused) {

@@ -40,8 +40,18 @@ class Spheres(unittest.TestCase):
         self.assertLessEqual(lower, upper)
         self.assertGreater(lower, 0)
 
+    def test_thin_parts(self):
+        plate = mv.Mesh(*shapes.box((2, 1.2, 0.04)))
+        by_volume, by_distance = mv.fit_spheres(plate, 12), mv.fit_spheres(plate, 12, aim="distance")
+        self.assertLess(mv.measure_gap(plate, by_distance)[1], mv.measure_gap(plate, by_volume)[0])
+        cover = mv.fit_spheres(plate, contract="cover", max_reach=0.3, balls_only=True)
+        self.assertTrue(mv.prove_spheres(plate, cover=cover).cover.proved)
+        self.assertLessEqual(max(cover.radii), 0.02 + 0.3)  # no centre is deeper
+        with self.assertRaisesRegex(mv.errors.UsageError, "raise `count` or `max_reach`"):
+            mv.fit_spheres(plate, len(cover) - 1, contract="cover", max_reach=0.3, balls_only=True)
+
     def test_options_out_of_range(self):
-        for options in ({}, {"count": 4, "error": 2.0}, {"count": 4, "contract": "none"}, {"count": -1}, {"count": 1.5},
+        for options in ({}, {"count": 4, "aim": "volume", "max_reach": 1.0}, {"count": 4, "aim": "far"}, {"count": 4, "error": 2.0}, {"count": 4, "contract": "none"}, {"count": -1}, {"count": 1.5},
                         {"count": "4"}):
             with self.subTest(options), self.assertRaises(mv.errors.UsageError):
                 mv.fit_spheres(self.mesh, **options)

@@ -58,6 +58,7 @@ struct PartFit {
   std::vector<std::vector<Ball>> levels;
   std::vector<ReachOut> reach;  ///< Per level: upper bounds of the distances by which balls reach out.
   std::size_t count = 0;  ///< The number of balls assigned to the part; 0: the number that its other goals require.
+  SphereAim aim = SphereAim::kVolume;  ///< SphereFit::aim.
   /// The volume of the shape if `of_shape`, else that which the mesh encloses cleanly, if it does.
   std::optional<double> solid_volume;
   /// `solid_volume` and the volume errors are those of the shape: of the ball, or Part::volume.
@@ -76,6 +77,10 @@ struct PartFit {
 /// A number of balls for several parts is distributed by need: each part gets one ball, and every further ball goes to
 /// the part where it covers the most volume that is not yet covered (measure_coverage_curve()), for every contract.
 /// With the method best, a larger number gives no part fewer balls and, with contract inside, no part a larger error.
+/// With SphereAim::kDistance, every further ball goes to the part with the widest gap instead, so that the widest one
+/// of all is narrow; kAuto is decided part by part, for the numbers that are distributed by volume. With
+/// SphereFitOptions::max_reach, parts have as many balls as they need, and it is an error (kUsage) if these are more
+/// than the number for the link, or in total.
 ///
 /// Up to `threads` parts are fitted side by side. `extractor` is called once for each part and ExtractionOptions, one
 /// call at a time but from any thread. Extractions of parts among which balls are distributed are kept until these are

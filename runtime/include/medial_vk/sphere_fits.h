@@ -30,6 +30,15 @@ enum class SphereMethod {
   kSource,  ///< One ball per voxel, for the smallest voxels that give no more balls than requested (Section 7.3.2).
 };
 
+/// What a set of balls is chosen by (docs/theory.md, "Thin parts").
+enum class SphereAim {
+  kVolume,    ///< Inside: little of the volume is uncovered; other contracts: as they say.
+  kDistance,  ///< Inside: no point of the boundary is far from all balls, whatever is uncovered. As in a thin plate.
+  /// kDistance where so many balls as large as the largest in the solid have no more than half of its volume together,
+  /// and else kVolume, as on meshes that enclose no volume cleanly.
+  kAuto,
+};
+
 /// All given goals must be met, with as few balls as the method finds.
 struct SphereFitOptions {
   SphereMethod method = SphereMethod::kBest;
@@ -45,6 +54,12 @@ struct SphereFitOptions {
   /// bound. With `count` alone, a bound for so many balls (kUsage if they cannot keep it), else a goal. By the method
   /// best; at least 1e-4 of the diagonal of the solid's box.
   double max_distance = 0;
+  /// kCover: greatest distance by which balls reach out, mesh units (ReachOut::greatest); 0: no such goal. With `count`
+  /// as a limit, or alone: without `error`, `levels` and `for_distances`, by the method best.
+  double max_reach = 0;
+  /// Other aims than kVolume: contract kInside by the method best, by `count` or `max_gap`, without `error` and
+  /// `for_distances`.
+  SphereAim aim = SphereAim::kVolume;
   /// The resolution of the extraction of candidate points, as in ExtractionOptions; 0: derived from the count.
   std::uint32_t resolution = 0;
   double object_angle = 0.6;  ///< Of method source.
@@ -73,6 +88,8 @@ struct SphereFit {
   std::vector<ReachOut> reach;         ///< Per level: upper bounds of the distances by which balls reach out.
   SphereMeasures measures;             ///< Of the last level; with SphereFitOptions::balls_only its proof alone.
   std::optional<double> solid_volume;  ///< If the mesh encloses one cleanly.
+  /// By what the balls were chosen: that of the options, and for kAuto the one that it stands for.
+  SphereAim aim = SphereAim::kVolume;
 };
 
 /// Fits balls to the solid that the mesh encloses, from medial spheres that `extractor` finds, proves the contract, and

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <queue>
 
 namespace medial_vk {
@@ -50,14 +51,10 @@ class Need {
   double power_ = kLeastPower;
 };
 
-}  // namespace
-
-std::size_t curve_length(std::size_t count) { return count + std::max<std::size_t>(4, count / 4); }
-
-std::vector<std::size_t> distribute_balls(std::span<const NeedCurve> curves, std::size_t total) {
+/// Every next ball goes to the part for which `worth(part, balls)` is greatest.
+std::vector<std::size_t> distribute_by(std::span<const NeedCurve> curves, std::size_t total,
+                                       const std::function<double(std::size_t, std::size_t)>& worth) {
   std::vector<std::size_t> counts(curves.size(), 1);
-  std::vector<Need> needs;
-  for (const NeedCurve& curve : curves) needs.emplace_back(curve);
   struct Offer {
     double gain;
     std::size_t part;
@@ -65,15 +62,35 @@ std::vector<std::size_t> distribute_balls(std::span<const NeedCurve> curves, std
   };
   std::priority_queue<Offer> offers;
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    if (!curves[i].is_ball) offers.push({needs[i].gain(1), i});
+    if (!curves[i].is_ball) offers.push({worth(i, 1), i});
   }
   for (std::size_t given = curves.size(); given < total && !offers.empty(); ++given) {
     const std::size_t part = offers.top().part;
     offers.pop();
     ++counts[part];
-    offers.push({needs[part].gain(counts[part]), part});
+    offers.push({worth(part, counts[part]), part});
   }
   return counts;
+}
+
+double gap_of(const NeedCurve& curve, std::size_t balls) {
+  if (curve.gaps.empty() || (curve.ends && balls >= curve.gaps.size())) return -1;
+  if (balls <= curve.gaps.size()) return curve.gaps[balls - 1];
+  return curve.gaps.back() * std::sqrt(static_cast<double>(curve.gaps.size()) / static_cast<double>(balls));
+}
+
+}  // namespace
+
+std::size_t curve_length(std::size_t count) { return count + std::max<std::size_t>(4, count / 4); }
+
+std::vector<std::size_t> distribute_balls(std::span<const NeedCurve> curves, std::size_t total) {
+  std::vector<Need> needs;
+  for (const NeedCurve& curve : curves) needs.emplace_back(curve);
+  return distribute_by(curves, total, [&](std::size_t part, std::size_t balls) { return needs[part].gain(balls); });
+}
+
+std::vector<std::size_t> distribute_by_gap(std::span<const NeedCurve> curves, std::size_t total) {
+  return distribute_by(curves, total, [&](std::size_t part, std::size_t balls) { return gap_of(curves[part], balls); });
 }
 
 }  // namespace medial_vk

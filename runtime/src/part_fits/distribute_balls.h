@@ -15,6 +15,8 @@ struct NeedCurve {
   bool is_ball = false;
   /// True if more balls than these have no benefit.
   bool ends = false;
+  /// The widest gap that k + 1 balls leave, for every k that was evaluated; mesh units. For distribute_by_gap() alone.
+  std::vector<double> gaps = {};
 };
 
 /// Distributes `total` balls, at least one to each part: every next ball goes to the part where it covers the most.
@@ -27,6 +29,11 @@ struct NeedCurve {
 /// depend on `total` and reach far enough, a larger total gives no part fewer (the shares are house-monotone; M.
 /// Balinski and H. P. Young, "Fair Representation", 1982).
 std::vector<std::size_t> distribute_balls(std::span<const NeedCurve> curves, std::size_t total);
+
+/// Distributes them such that the widest gap of all parts is narrow: every next ball goes to the part with the widest
+/// one. As gaps do not widen with the number of balls, no distribution of as many balls has a narrower one. Beyond its
+/// end a curve continues as count^-0.5, as on a sheet. Otherwise as above.
+std::vector<std::size_t> distribute_by_gap(std::span<const NeedCurve> curves, std::size_t total);
 
 /// The length of a curve that determines the worth of one more ball than `count`.
 std::size_t curve_length(std::size_t count);

@@ -5,11 +5,10 @@
 #include <cmath>
 #include <exception>
 #include <functional>
-#include <map>
+#include <memory>
 #include <mutex>
 #include <new>
 #include <numbers>
-#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -20,26 +19,21 @@
 #include "base/stopwatch.h"
 #include "part_fits/distribute_balls.h"
 #include "part_fits/kept_extractions.h"
+#include "part_fits/part_groups.h"
 #include "part_fits/parts_progress.h"
 #include "part_fits/place_ball.h"
 #include "part_fits/resident_meshes.h"
 #include "part_fits/side_by_side.h"
+#include "sphere_fits/methods/by_distance.h"
+#include "sphere_fits/methods/kept_search.h"
 
 namespace medial_vk {
 namespace {
-
-bool is_positive(double x) { return std::isfinite(x) && x > 0; }
 
 /// Gives each part an extractor of its own.
 using MakeExtractor = std::function<Extractor()>;
 
 double volume_of(const Ball& ball) { return 4.0 / 3 * std::numbers::pi * ball.radius * ball.radius * ball.radius; }
-
-/// Parts that share a number of balls: those of a link, or all.
-struct Group {
-  std::vector<std::size_t> parts;
-  std::size_t balls = 0;
-};
 
 /// An open mesh has no volume; the volume between its surface and the middle of its box serves instead.
 double enclosed_with_middle(const PreparedMesh& mesh) {
@@ -55,9 +49,13 @@ double enclosed_with_middle(const PreparedMesh& mesh) {
 /// The present knowledge about a part.
 struct PartState {
   std::size_t count = 0;         // of its balls, or of its group until they are distributed; 0: other goals give it
+  std::size_t most = 0;          // of its group
   std::size_t curve_length = 0;  // that is required
+  bool is_settled = false;       // the number is final
   NeedCurve curve;
-  Extractor extractor;  // while it is needed; else an empty function
+  // While they are needed; else empty.
+  Extractor extractor;
+  std::unique_ptr<KeptSearch> search;
 };
 
 class Fitting {
@@ -80,125 +78,108 @@ class Fitting {
       return Error{ErrorCode::kUsage, "`threads` of the spheres is neither 0 nor that of the parts"};
     }
     for (const Part& part : parts_) {
-      if (Status status = check(part); !status) return named(part, status.error());
+      if (Status status = check_part(part); !status) return named(part, status.error());
     }
-    const std::vector<Group> groups = make_groups();
-    for (const Group& group : groups) {
-      if (Status status = check(group); !status) return status.error();
-      for (const std::size_t part : group.parts) states_[part].count = group.balls;
+    std::vector<PartGroup> groups = groups_of(parts_, options_);
+    for (const PartGroup& group : groups) {
+      if (Status status = check_group(group, parts_, options_); !status) return status.error();
+      for (const std::size_t part : group.parts) states_[part].count = states_[part].most = group.balls;
     }
-    std::vector<std::size_t> all(parts_.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    expect(all);
-    if (Status status = count_by_need(groups); !status) return status.error();
-    if (Status status = work_on(all, &Fitting::fit_part); !status) return status.error();
+    if (Status status = fit_all(groups); !status) return status.error();
+    for (const PartGroup& group : groups) {
+      if (Status status = check_needed(group, fits_, parts_, options_); !status) return status.error();
+    }
     align_levels();
     return std::move(fits_);
   }
 
  private:
+  bool is_by_gap() const {
+    const SphereFitOptions& spheres = options_.spheres;
+    return spheres.aim == SphereAim::kDistance && has_kept_curve(spheres);
+  }
+
   bool shares() const { return options_.total > 0 || options_.count_per_link > 0; }
-
-  /// In the order of their first parts.
-  std::vector<Group> make_groups() const {
-    std::vector<Group> groups;
-    std::map<std::string, std::size_t> of_link;
-    for (std::size_t i = 0; i < parts_.size(); ++i) {
-      const std::string key = options_.total > 0 ? std::string() : shares() ? parts_[i].link : std::to_string(i);
-      const auto [group, is_new] = of_link.emplace(key, groups.size());
-      if (is_new) {
-        groups.emplace_back();
-        groups.back().balls = options_.total > 0 ? options_.total
-                              : shares()         ? options_.count_per_link
-                                                 : options_.spheres.count;
-      }
-      groups[group->second].parts.push_back(i);
-    }
-    return groups;
-  }
-
-  static Status check(const Part& part) {
-    if (!part.mesh && !part.ball) return Error{ErrorCode::kUsage, "it has neither `mesh` nor `ball`"};
-    if (part.mesh && part.ball) return Error{ErrorCode::kUsage, "it has both `mesh` and `ball`"};
-    if (!is_rigid(part.pose)) return Error{ErrorCode::kUsage, "its `pose` is no rigid motion"};
-    if (part.ball && (!is_positive(part.ball->radius) || !std::isfinite(length(part.ball->centre)))) {
-      return Error{ErrorCode::kUsage, "its `ball` has no finite centre and positive radius"};
-    }
-    if (!part.ball && part.volume && !is_positive(*part.volume))
-      return Error{ErrorCode::kUsage, "its `volume` is not positive"};
-    return {};
-  }
-
-  Status check(const Group& group) const {
-    const std::size_t parts = group.parts.size();
-    if (!shares() || group.balls >= parts) return {};
-    if (options_.total > 0) {
-      return Error{ErrorCode::kUsage,
-                   format_text("{} parts need a ball each; raise `total` from {}", parts, group.balls)};
-    }
-    const std::string link = medial_vk::quoted(parts_[group.parts.front()].link);
-    return Error{ErrorCode::kUsage,
-                 format_text("link {} has {} parts, which need a ball each; raise `count_per_link` from {}", link,
-                             parts, group.balls)};
-  }
 
   void expect(const std::vector<std::size_t>& numbers) {
     const auto is_mesh = [&](std::size_t number) { return !parts_[number].ball; };
     progress_.expect(static_cast<std::size_t>(std::ranges::count_if(numbers, is_mesh)));
   }
 
-  Status work_on(const std::vector<std::size_t>& numbers, Status (Fitting::*work)(std::size_t, unsigned)) {
-    return work_side_by_side(parts_, numbers, options_.threads,
-                             [&](std::size_t number, unsigned threads) { return (this->*work)(number, threads); });
-  }
-
-  /// Distributes the balls of each group that has several parts. Curves are computed for an equal share first, and
-  /// longer ones for parts that get more: in the end every curve has the required length, and the shares are those of
-  /// complete curves.
-  Status count_by_need(const std::vector<Group>& groups) {
-    if (!shares()) return {};
-    std::vector<std::size_t> curves;
-    for (const Group& group : groups) {
-      if (group.parts.size() == 1) continue;
-      for (const std::size_t part : group.parts) states_[part].curve_length = curve_length(equal_share(group));
-      curves.insert(curves.end(), group.parts.begin(), group.parts.end());
-    }
-    std::ranges::sort(curves);
-    while (!curves.empty()) {
-      expect(curves);
-      if (Status status = work_on(curves, &Fitting::find_curve); !status) return status;
-      curves.clear();
-      for (const Group& group : groups) {
-        if (group.parts.size() > 1) distribute(group, curves);
+  /// Fits parts whose number of balls is final, and finds curves of the others, until all are fitted. Curves are
+  /// computed for an equal share first, and longer ones for parts that get more: in the end every curve has the
+  /// required length, and the shares are those of complete curves.
+  Status fit_all(std::vector<PartGroup>& groups) {
+    std::vector<std::size_t> next;
+    for (PartGroup& group : groups) begin(group, next);
+    while (!next.empty()) {
+      expect(next);
+      // The most work first. Equal ones keep their order.
+      std::ranges::stable_sort(next, std::greater<>(), [&](std::size_t part) { return balls_to_find(part); });
+      const Status done = work_side_by_side(parts_, next, options_.threads, [&](std::size_t part, unsigned threads) {
+        Stopwatch stopwatch;
+        Status status = states_[part].is_settled ? fit_part(part, threads) : find_curve(part, threads);
+        fits_[part].measurements.seconds += stopwatch.lap();
+        return status;
+      });
+      if (!done) return done;
+      next.clear();
+      for (PartGroup& group : groups) {
+        if (!group.is_settled) distribute(group, next);
       }
-      std::ranges::sort(curves);
     }
     return {};
   }
 
-  std::size_t equal_share(const Group& group) const {
-    const std::size_t balls = static_cast<std::size_t>(
-        std::ranges::count_if(group.parts, [&](std::size_t part) { return parts_[part].ball.has_value(); }));
-    const std::size_t others = group.parts.size() - balls;
-    return others == 0 ? 1 : std::max<std::size_t>(1, (group.balls - balls) / others);
+  std::size_t balls_to_find(std::size_t part) const {
+    const PartState& state = states_[part];
+    const std::size_t wanted = state.is_settled ? state.count : state.curve_length,
+                      found = state.curve.uncovered.size();
+    return parts_[part].ball ? 0 : wanted - std::min(wanted, found);
   }
 
-  /// Adds the parts whose curves are too short for their new counts to `too_short`.
-  void distribute(const Group& group, std::vector<std::size_t>& too_short) {
+  /// No curve is needed where a single part can have more than one ball.
+  void begin(PartGroup& group, std::vector<std::size_t>& next) {
+    const bool is_shared = shares() && group.parts.size() > 1 && options_.spheres.max_reach == 0;
+    if (is_shared && group.parts.size() - group.exact > 1) {
+      for (const std::size_t part : group.parts) states_[part].curve_length = curve_length(group.equal_share());
+      next.insert(next.end(), group.parts.begin(), group.parts.end());
+      return;
+    }
+    for (const std::size_t part : group.parts) {
+      if (is_shared) states_[part].count = parts_[part].ball ? 1 : group.balls - group.exact;
+      if (shares() && options_.spheres.max_reach > 0) states_[part].count = 0;  // as many as are needed
+    }
+    settle(group, next);
+  }
+
+  void settle(PartGroup& group, std::vector<std::size_t>& next) {
+    group.is_settled = true;
+    for (const std::size_t part : group.parts) states_[part].is_settled = true;
+    next.insert(next.end(), group.parts.begin(), group.parts.end());
+  }
+
+  /// Adds the parts whose curves are too short for their new counts to `next`, or all if none is.
+  void distribute(PartGroup& group, std::vector<std::size_t>& next) {
     std::vector<NeedCurve> curves;
     for (const std::size_t part : group.parts) curves.push_back(states_[part].curve);
-    const std::vector<std::size_t> counts = distribute_balls(curves, group.balls);
+    const std::vector<std::size_t> counts =
+        is_by_gap() ? distribute_by_gap(curves, group.balls) : distribute_balls(curves, group.balls);
+    bool is_settled = true;
     for (std::size_t i = 0; i < group.parts.size(); ++i) {
       PartState& state = states_[group.parts[i]];
       state.count = counts[i];
       if (is_long_enough(state)) continue;
       state.curve_length = std::max(state.curve_length, curve_length(state.count));
-      too_short.push_back(group.parts[i]);
+      next.push_back(group.parts[i]);
+      is_settled = false;
     }
+    if (is_settled) settle(group, next);
   }
 
   /// The sets of the source's method are not prefixes of each other: its curves are continued instead.
   bool is_long_enough(const PartState& state) const {
+    if (is_by_gap()) return state.curve.is_ball || state.curve.ends || state.curve.gaps.size() >= state.count;
     return state.curve.is_ball || state.curve.ends || options_.spheres.method == SphereMethod::kSource ||
            state.curve.uncovered.size() >= curve_length(state.count);
   }
@@ -209,14 +190,29 @@ class Fitting {
     state.curve = {};
     state.curve.is_ball = part.ball.has_value();
     if (state.curve.is_ball) return {};
-    const Result<CoverageCurve> found = measure_coverage_curve(*part.mesh, fit_options(state.curve_length, threads),
-                                                               extractor_of(number), reporter(number), stop_);
+    SphereFitOptions options = fit_options(state.curve_length, threads);
+    if (is_by_gap()) return find_gaps(number, options);
+    options.aim = SphereAim::kVolume;
+    const Result<CoverageCurve> found =
+        has_kept_curve(options)
+            ? search_of(number, options).curve(options.count, reporter(number), stop_)
+            : measure_coverage_curve(*part.mesh, options, extractor_of(number), reporter(number), stop_);
     if (!found) return named(part, found.error());
     progress_.finish(number);
     const double whole =
         part.volume.value_or(found.value().solid_volume.value_or(enclosed_with_middle(part.mesh->prepared())));
     for (const double covered : found.value().covered) state.curve.uncovered.push_back(whole - covered);
     state.curve.ends = found.value().ends;
+    return {};
+  }
+
+  Status find_gaps(std::size_t number, const SphereFitOptions& options) {
+    PartState& state = states_[number];
+    Result<std::vector<double>> gaps = search_of(number, options).gaps(options.count, stop_);
+    if (!gaps) return named(parts_[number], gaps.error());
+    progress_.finish(number);
+    state.curve.ends = gaps.value().size() < options.count;
+    state.curve.gaps = std::move(gaps).value();
     return {};
   }
 
@@ -232,6 +228,16 @@ class Fitting {
     Extractor& extractor = states_[number].extractor;
     if (!extractor) extractor = kept_extractions(in_turn());
     return extractor;
+  }
+
+  /// One for the curve of a part and its balls.
+  KeptSearch& search_of(std::size_t number, const SphereFitOptions& options) {
+    std::unique_ptr<KeptSearch>& search = states_[number].search;
+    if (!search) {
+      const std::size_t most = curve_length(states_[number].most);
+      search = std::make_unique<KeptSearch>(*parts_[number].mesh, options, most, extractor_of(number));
+    }
+    return *search;
   }
 
   /// An extractor that waits for those of the other parts: extractors need not be safe for several threads, and an
@@ -266,39 +272,29 @@ class Fitting {
       fit.of_shape = true;
       return {};
     }
-    Stopwatch stopwatch;
     if (Status status = check_position(part); !status) return named(part, status.error());
-    Result<SphereFit> fitted =
-        fit_spheres(*part.mesh, fit_options(state.count, threads), extractor_of(number), reporter(number), stop_);
+    SphereFitOptions options = fit_options(state.count, threads);
+    const Result<SphereAim> aim = aim_for(*part.mesh, options);
+    if (!aim) return named(part, aim.error());
+    options.aim = aim.value();
+    Result<SphereFit> fitted = is_kept(options)
+                                   ? search_of(number, options).fit(options.count, options.aim, reporter(number), stop_)
+                                   : fit_spheres(*part.mesh, options, extractor_of(number), reporter(number), stop_);
     if (!fitted) return named(part, fitted.error());
-    release_extractor(number);
+    release(number);
     progress_.finish(number);
     take(part, std::move(fitted).value(), fit);
-    fit.measurements.seconds = stopwatch.lap();
     return {};
   }
 
-  void release_extractor(std::size_t number) {
+  void release(std::size_t number) {
     const std::lock_guard lock(extractions_);
+    states_[number].search.reset();
     states_[number].extractor = {};
   }
 
-  /// Bounds the loss or gain of radii where balls are moved to the frame of the link. Earlier measurements then
-  /// remain true to the digits that are shown.
-  static Status check_position(const Part& part) {
-    constexpr double kMost = 1e-6;  // of the diagonal
-    const MeshReport& report = part.mesh->prepared().report;
-    double reach = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      reach = std::max({reach, std::fabs(report.lower[k]), std::fabs(report.upper[k])});
-    }
-    if (placement_rounding(part.pose, 2 * reach) <= kMost * length(report.upper - report.lower)) return {};
-    return Error{ErrorCode::kInvalidMesh,
-                 "it lies so far from the origin of its link that its balls can hardly be placed there (double "
-                 "precision); move it closer"};
-  }
-
   void take(const Part& part, SphereFit fitted, PartFit& fit) const {
+    fit.aim = fitted.aim;
     fit.reach = std::move(fitted.reach);
     place_levels(part, fitted.levels, fit);
     fit.proved = std::move(fitted.levels.back());

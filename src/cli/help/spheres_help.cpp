@@ -30,7 +30,9 @@ How many spheres (goals that are given together must all be met):
                         (cover: add so much; balanced: both), between 0 and 1
       --max-gap G       as many as leave no point of the surface farther than G
                         from the spheres, in units of the mesh (robot: metres)
-      --max-distance D  of --contract balanced: the surfaces of spheres and
+      --max-reach R     with --contract cover: as few as reach out by no more
+                        than R, in units of the mesh (robot: metres)
+      --max-distance D  with --contract balanced: the surfaces of spheres and
                         solid are nowhere farther apart than D, in either
                         direction; with --count a bound, alone as many as needed
       --levels          also N/2, N/4 ... 1 of them, to choose from at run time
@@ -43,6 +45,10 @@ What they guarantee:
                         solid; both: inside and cover, N of each, chosen for
                         distances, with the mesh in a body file (part.body.npz),
                         for medial-vk distance
+      --by WHAT         of spheres inside: volume, the least uncovered (default);
+                        distance, none of the surface far from all spheres, as
+                        for thin links; auto, by distance where N spheres can
+                        have no more than half of the volume
       --method HOW      best: chosen and moved for the least volume uncovered, or
                         as the contract requires (default); source: one
                         sphere per voxel, the largest voxels with no more than N

@@ -49,6 +49,7 @@ void declare(CLI::App& app, SpheresOptions& options, Given& given) {
   add.real("--error", {0, 1, false}, " of the volume", fit.error);
   add.real("--max-gap", {0, 1e30, false}, " (units of the mesh)", fit.max_gap);
   add.real("--max-distance", {0, 1e30, false}, " (units of the mesh)", fit.max_distance);
+  add.real("--max-reach", {0, 1e30, false}, " (units of the mesh)", fit.max_reach);
   add.whole("--resolution", 1, 4096, " voxels", fit.resolution);
   add.choice<SphereMethod>("--method", {{"best", SphereMethod::kBest}, {"source", SphereMethod::kSource}}, fit.method);
   add.choice<std::optional<SphereContract>>("--contract",
@@ -57,6 +58,9 @@ void declare(CLI::App& app, SpheresOptions& options, Given& given) {
                                              {"balanced", SphereContract::kBalanced},
                                              {"both", std::nullopt}},
                                             given.contract);
+  add.choice<SphereAim>(
+      "--by", {{"volume", SphereAim::kVolume}, {"distance", SphereAim::kDistance}, {"auto", SphereAim::kAuto}},
+      fit.aim);
   add.real("--object-angle", {0, std::numbers::pi / 2, false}, " radians", given.object_angle);
   add.flag("--levels", options.spheres.levels);
   add.texts_or_none("--frames", "files", options.frames);
@@ -114,6 +118,31 @@ Status check_input(SpheresOptions& options, const Given& given) {
   return {};
 }
 
+/// Of the goals that are distances, and of what is chosen by them.
+Status check_distances(const SpheresOptions& options) {
+  const SphereFitOptions& fit = options.spheres;
+  const bool is_best = fit.method == SphereMethod::kBest;
+  if (fit.contract == SphereContract::kCover && fit.max_gap > 0) {
+    return usage_error(
+        "--max-gap: spheres that cover leave no gap; use --max-reach R, --error E, or a number of spheres");
+  }
+  if (fit.max_reach > 0 && (options.both || fit.contract != SphereContract::kCover || !is_best)) {
+    return usage_error("--max-reach is about spheres that cover: use it with --contract cover and --method best");
+  }
+  if (fit.max_distance > 0 && (options.both || fit.contract != SphereContract::kBalanced || !is_best)) {
+    return usage_error("--max-distance is about balanced spheres: use it with --contract balanced and --method best");
+  }
+  if (fit.max_reach > 0 && (fit.error > 0 || fit.levels)) {
+    return usage_error("--max-reach: without --error and --levels; a number of spheres limits it");
+  }
+  if (fit.aim == SphereAim::kVolume) return {};
+  if (options.both || fit.contract != SphereContract::kInside || !is_best) {
+    return usage_error("--by is about spheres inside: use it with --contract inside and --method best");
+  }
+  if (fit.error > 0) return usage_error("--by: --error is about the volume; use a number of spheres or --max-gap G");
+  return {};
+}
+
 Status check_goals(const SpheresOptions& options) {
   const SphereFitOptions& fit = options.spheres;
   if (options.is_robot && fit.count > 0) {
@@ -122,12 +151,7 @@ Status check_goals(const SpheresOptions& options) {
   if (options.count_per_link > 0 && options.total > 0) {
     return usage_error("--count-per-link and --total cannot be used together");
   }
-  if (fit.contract == SphereContract::kCover && fit.max_gap > 0) {
-    return usage_error("--max-gap: spheres that cover leave no gap; use --error E, or a number of spheres");
-  }
-  if (fit.max_distance > 0 && (fit.contract != SphereContract::kBalanced || fit.method == SphereMethod::kSource)) {
-    return usage_error("--max-distance is about balanced spheres: use it with --contract balanced and --method best");
-  }
+  if (Status status = check_distances(options); !status) return status;
   const bool by_source = fit.method == SphereMethod::kSource && fit.contract != SphereContract::kInside;
   if (by_source && (fit.error > 0 || fit.max_gap > 0)) {
     return usage_error(
@@ -135,8 +159,13 @@ Status check_goals(const SpheresOptions& options) {
   }
   const bool by_resolution = fit.method == SphereMethod::kSource && fit.resolution > 0;
   const bool any = fit.count > 0 || options.count_per_link > 0 || options.total > 0 || fit.error > 0 ||
-                   fit.max_gap > 0 || fit.max_distance > 0 || by_resolution;
+                   fit.max_gap > 0 || fit.max_reach > 0 || fit.max_distance > 0 || by_resolution;
   if (any) return {};
+  if (fit.contract == SphereContract::kCover && !options.both) {
+    return usage_error(options.is_robot
+                           ? "no goal is given: use --count-per-link N, --total N, --error E or --max-reach R"
+                           : "no goal is given: use --count N, --error E or --max-reach R");
+  }
   return usage_error(options.is_robot ? "no goal is given: use --count-per-link N, --total N, --error E or --max-gap G"
                      : options.both   ? "no goal is given: use --count N or --error E"
                                       : "no goal is given: use --count N, --error E or --max-gap G");
@@ -274,6 +303,7 @@ Status check_frames(SpheresOptions& options) {
                                                   {"--levels", fit.levels},
                                                   {"--error", fit.error > 0},
                                                   {"--max-gap", fit.max_gap > 0},
+                                                  {"--by", fit.aim != SphereAim::kVolume},
                                                   {"--method source", fit.method == SphereMethod::kSource},
                                                   {"--keep-inner-faces", options.keep_inner_faces},
                                                   {"--picture", !options.picture.empty()},

@@ -25,6 +25,7 @@
 #include "medial_vk/version.h"
 #include "output/atomic_files/atomic_file.h"
 #include "output/charts_and_tables/measures_output.h"
+#include "output/fit_reports/fits_advice.h"
 #include "output/fit_reports/fits_picture.h"
 #include "output/fit_reports/fits_record.h"
 #include "output/fit_reports/fits_report.h"
@@ -141,6 +142,7 @@ class SpheresRun {
         options_.is_robot ? fit_robot(on_progress, stop.get_token()) : fit_one_mesh(on_progress, stop.get_token());
     shared_.progress.clear();
     if (!status) return status.error().code == ErrorCode::kInterrupted ? stopped() : in_words(status.error());
+    for (FittedSolid& solid : record_.solids) solid.advice = advise(solid, options_.spheres.contract);
     return {};
   }
 

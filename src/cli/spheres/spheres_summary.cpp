@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 
 #include "cli/terminal/numbers.h"
@@ -107,6 +108,37 @@ std::string percent(const std::optional<Share>& share) {
   return fmt::format("{:.3g} to {:.3g} %", 100 * share->lower(), 100 * share->upper());
 }
 
+/// For the solids of which most is uncovered.
+std::string advice_text(const SpheresOptions& options, const FitsRecord& record) {
+  constexpr std::size_t kMost = 4;
+  std::vector<const FittedSolid*> solids;
+  for (const FittedSolid& solid : record.solids) {
+    if (solid.advice) solids.push_back(&solid);
+  }
+  std::ranges::stable_sort(solids, std::greater<>(), [](const FittedSolid* solid) { return solid->advice->uncovered; });
+  if (solids.empty()) return {};
+  std::string text;
+  for (std::size_t i = 0; i < std::min(solids.size(), kMost); ++i) {
+    const FittedSolid& solid = *solids[i];
+    const FitAdvice& advice = *solid.advice;
+    std::string line = options.is_robot ? fmt::format("{}, {}: ", printable(solid.link), printable(solid.name)) : "";
+    line += fmt::format("{:.3g} % uncovered; ", 100 * advice.uncovered);
+    if (advice.inside > 0) line += fmt::format("about {} spheres inside leave a quarter; ", grouped(advice.inside));
+    text +=
+        labelled("advice", line + fmt::format("{} that cover it reach out by {:.3g} and add {:.3g} times its volume",
+                                              grouped(solid.proved.size()), advice.reach, advice.added));
+  }
+  if (solids.size() > kMost) {
+    text += labelled("advice", fmt::format("{} more: see --report", solids.size() - kMost));
+  }
+  const bool by_distance =
+      std::ranges::any_of(solids, [](const FittedSolid* solid) { return solid->advice->by_distance; });
+  return text +
+         labelled("advice", fmt::format("--contract cover --max-reach R for covers (on sheets, half of R takes four "
+                                        "times as many spheres){}",
+                                        by_distance ? "; --by auto to spread those inside evenly" : ""));
+}
+
 double seconds(const FitsRecord& record) {
   double total = 0;
   for (const StageTime& time : record.times) total += time.seconds;
@@ -186,6 +218,7 @@ std::string spheres_summary(const SpheresOptions& options, const FitsRecord& rec
                                  facets, contract_is_exact ? "; volumes are those of the true shapes" : ""));
   }
   text += labelled("gap", gap_text(record));
+  text += advice_text(options, record);
   text += labelled("time", duration(seconds(record)));
   return text + written_text(files);
 }

@@ -29,6 +29,7 @@ constexpr ParameterWords of_follow(std::string_view parameter, std::string_view 
 
 constexpr std::string_view kRobotCount = "--count-per-link or --total";
 constexpr ParameterWords kParameterWords[] = {
+    {"aim", {}, "--by", "--by"},
     {"amplitude", "--perturb", {}, {}},
     {"angle", "--sheet-angle", {}, {}},
     library_only("ball"),
@@ -69,6 +70,7 @@ constexpr ParameterWords kParameterWords[] = {
     {"margin", "--margin", {}, {}, {}, {}, {}, {}, "--margin", "--margin"},
     {"max_distance", {}, "--max-distance", "--max-distance"},
     {"max_gap", {}, "--max-gap", "--max-gap"},
+    {"max_reach", {}, "--max-reach", "--max-reach"},
     {"medial_mesh", "--medial-mesh", {}, {}},
     {"memory_budget",
      "--memory",

@@ -22,6 +22,11 @@ const char* name_of(SphereContract contract) {
 
 const char* name_of(SphereMethod method) { return method == SphereMethod::kBest ? "best" : "source"; }
 
+const char* name_of(SphereAim aim) {
+  constexpr const char* kNames[] = {"volume", "distance", "auto"};
+  return kNames[static_cast<std::size_t>(aim)];
+}
+
 const MeshReport& FittedSolid::report() const {
   static const MeshReport kNone;
   return mesh ? mesh->prepared().report : kNone;
@@ -40,6 +45,7 @@ FittedSolid solid_of(const Part& part, double facet_share) {
 
 void take_fit(PartFit fit, FittedSolid& solid) {
   solid.count = fit.count;
+  solid.aim = fit.aim;
   solid.levels = std::move(fit.levels);
   solid.reach = std::move(fit.reach);
   solid.solid_volume = fit.solid_volume;
@@ -52,6 +58,7 @@ void take_fit(PartFit fit, FittedSolid& solid) {
 
 void take_fit(SphereFit fit, std::size_t count, FittedSolid& solid) {
   solid.count = count;
+  solid.aim = fit.aim;
   solid.proved = fit.levels.back();
   solid.levels = std::move(fit.levels);
   solid.reach = std::move(fit.reach);

@@ -16,6 +16,18 @@
 
 namespace medial_vk {
 
+/// What may serve better where balls inside leave much of a solid uncovered (docs/theory.md, "Thin parts").
+struct FitAdvice {
+  double uncovered = 0;    ///< Share of the volume.
+  std::size_t inside = 0;  ///< About how many balls inside leave a quarter: they have the volume of the solid together.
+  /// As many balls cover all of it that reach out by at most this, mesh units: those inside, grown by their proved
+  /// distance from the solid. Of an open mesh, its surface.
+  double reach = 0;
+  double added = 0;  ///< The volume that these add, as a share of the solid's.
+  bool by_distance =
+      false;  ///< They were chosen by volume, but have no more than half of it: so their places are free.
+};
+
 /// A solid of the run, which is the mesh or a part of the robot, and its balls.
 struct FittedSolid {
   std::string link;  ///< Of a mesh: its name.
@@ -27,6 +39,7 @@ struct FittedSolid {
 
   // Its fit, with the meanings of PartFit.
   std::size_t count = 0;
+  SphereAim aim = SphereAim::kVolume;
   std::vector<std::vector<Ball>> levels;
   std::vector<ReachOut> reach;
   std::optional<double> solid_volume;
@@ -36,6 +49,7 @@ struct FittedSolid {
   std::vector<Ball> proved;
   double seconds = 0;
 
+  std::optional<FitAdvice> advice;         ///< By advise().
   std::optional<SphereContract> contract;  ///< Of a set of a body file; otherwise that of the record.
   std::optional<CheckReport> check;        ///< Of `--check`.
 
@@ -65,6 +79,7 @@ struct FitsRecord {
 /// The names used by the options and in the report.
 const char* name_of(SphereContract contract);
 const char* name_of(SphereMethod method);
+const char* name_of(SphereAim aim);
 
 /// A part of a robot before its fit.
 FittedSolid solid_of(const Part& part, double facet_share);

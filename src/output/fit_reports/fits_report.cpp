@@ -25,6 +25,7 @@ Json goals_json(const FitsRecord& record) {
           {"total", given(record.total)},
           {"error", given(record.spheres.error)},
           {"max_gap", given(record.spheres.max_gap)},
+          {"max_reach", given(record.spheres.max_reach)},
           {"max_distance", given(record.spheres.max_distance)},
           {"resolution", given(record.spheres.resolution)}};
 }
@@ -38,6 +39,14 @@ Json interval_json(const std::optional<Share>& share) {
   return share ? Json{share->lower(), share->upper()} : Json(nullptr);
 }
 
+Json advice_json(const std::optional<FitAdvice>& advice) {
+  if (!advice) return nullptr;
+  return {{"uncovered", advice->uncovered},
+          {"inside_for_a_quarter", advice->inside > 0 ? Json(advice->inside) : Json(nullptr)},
+          {"cover", {{"reach", advice->reach}, {"added", advice->added}}},
+          {"by_distance", advice->by_distance}};
+}
+
 Json solid_json(const FittedSolid& solid, SphereContract of_record) {
   const SphereContract contract = solid.contract.value_or(of_record);
   const ReachOut& reach = solid.reach.back();
@@ -47,6 +56,7 @@ Json solid_json(const FittedSolid& solid, SphereContract of_record) {
   return {{"link", solid.link},
           {"geometry", solid.name},
           {"contract", name_of(contract)},
+          {"by", name_of(solid.aim)},
           {"triangles", solid.report().triangles},
           {"closed", solid.ball || solid.report().closed},
           {"assumptions", solid.report().assumptions},
@@ -61,6 +71,7 @@ Json solid_json(const FittedSolid& solid, SphereContract of_record) {
           {"volume_error_interval", interval_json(share)},
           {"measures", solid.measures ? measures_json(*solid.measures) : Json(nullptr)},
           {"check", solid.check ? Json(solid.check->passed() ? "passed" : "failed") : Json(nullptr)},
+          {"advice", advice_json(solid.advice)},
           {"reach_out", {{"mean", reach.mean}, {"best", reach.least}, {"worst", reach.greatest}}},
           {"seconds", solid.seconds}};
 }
@@ -81,6 +92,7 @@ std::string encode_fits_report(const FitsRecord& record) {
                {record.is_robot ? "robot" : "mesh", record.name},
                {"method", name_of(record.spheres.method)},
                {"contract", record.is_body ? "both" : name_of(record.spheres.contract)},
+               {"by", name_of(record.spheres.aim)},
                {"object_angle",
                 record.spheres.method == SphereMethod::kSource ? Json(record.spheres.object_angle) : Json(nullptr)},
                {"backend", record.backend == Backend::kCpu ? "cpu" : "vulkan"},

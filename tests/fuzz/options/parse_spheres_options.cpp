@@ -15,6 +15,7 @@ void require_in_range(const SphereFitOptions& fit) {
   require(fit.error >= 0 && fit.error < 1, "--error keeps its range");
   require(fit.max_gap >= 0 && std::isfinite(fit.max_gap), "--max-gap keeps its range");
   require(fit.max_distance >= 0 && std::isfinite(fit.max_distance), "--max-distance keeps its range");
+  require(fit.max_reach >= 0 && std::isfinite(fit.max_reach), "--max-reach keeps its range");
   require(fit.resolution <= 4096, "--resolution keeps its range");
   require(fit.object_angle > 0 && fit.object_angle < std::numbers::pi / 2, "--object-angle keeps its range");
   require(fit.threads <= 1024, "--threads keeps its range");
@@ -24,7 +25,7 @@ void require_goal(const cli::SpheresOptions& options) {
   const SphereFitOptions& fit = options.spheres;
   const bool by_resolution = fit.method == SphereMethod::kSource && fit.resolution > 0;
   require(fit.count > 0 || options.count_per_link > 0 || options.total > 0 || fit.error > 0 || fit.max_gap > 0 ||
-              fit.max_distance > 0 || by_resolution,
+              fit.max_reach > 0 || fit.max_distance > 0 || by_resolution,
           "there is a goal");
   require(options.count_per_link <= 1'000'000 && options.total <= 1'000'000, "counts keep their range");
   require(options.count_per_link == 0 || options.total == 0, "--count-per-link and --total exclude each other");
@@ -38,6 +39,11 @@ void require_goal(const cli::SpheresOptions& options) {
   require(fit.contract != SphereContract::kCover || fit.max_gap == 0, "covers leave no gap");
   require(fit.max_distance == 0 || (fit.contract == SphereContract::kBalanced && fit.method == SphereMethod::kBest),
           "the distance is one of balanced spheres");
+  const bool is_best = fit.method == SphereMethod::kBest && !options.both;
+  require(fit.max_reach == 0 || (is_best && fit.contract == SphereContract::kCover && fit.error == 0 && !fit.levels),
+          "a reach is that of a cover");
+  require(fit.aim == SphereAim::kVolume || (is_best && fit.contract == SphereContract::kInside && fit.error == 0),
+          "balls inside are chosen by distance");
 }
 
 void require_usable(const cli::SpheresOptions& options) {

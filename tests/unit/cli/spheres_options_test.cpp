@@ -73,6 +73,28 @@ TEST(SpheresOptions, AGoalIsNeeded) {
   EXPECT_THAT(spheres_message({"a.obj", "--max-gap", "-1"}), HasSubstr("strictly between"));
 }
 
+TEST(SpheresOptions, DistancesAsGoals) {
+  EXPECT_EQ(parsed_spheres({"a.obj", "--count", "9"}).spheres.aim, SphereAim::kVolume);
+  EXPECT_EQ(parsed_spheres({"a.obj", "--count", "9", "--by", "distance"}).spheres.aim, SphereAim::kDistance);
+  EXPECT_EQ(parsed_spheres({"a.urdf", "--total", "9", "--by", "auto"}).spheres.aim, SphereAim::kAuto);
+  EXPECT_EQ(parsed_spheres({"a.obj", "--max-reach", "0.5", "--contract", "cover"}).spheres.max_reach, 0.5);
+  EXPECT_THAT(spheres_message({"a.obj", "--contract", "cover"}), HasSubstr("--error E or --max-reach R"));
+  EXPECT_THAT(spheres_message({"a.obj", "--max-reach", "0.5"}), HasSubstr("use it with --contract cover"));
+  for (const std::vector<std::string>& without : {std::vector<std::string>{"--error", "0.1"}, {"--levels"}}) {
+    std::vector<std::string> words = {"a.obj", "--max-reach", "0.5", "--contract", "cover"};
+    words.insert(words.end(), without.begin(), without.end());
+    EXPECT_THAT(spheres_message(words), HasSubstr("without --error and --levels"));
+  }
+  EXPECT_THAT(spheres_message({"a.obj", "--count", "9", "--by", "distance", "--contract", "cover"}),
+              HasSubstr("use it with --contract inside"));
+  EXPECT_THAT(spheres_message({"a.obj", "--count", "9", "--by", "distance", "--method", "source"}),
+              HasSubstr("--method best"));
+  EXPECT_THAT(spheres_message({"a.obj", "--error", "0.1", "--by", "distance"}),
+              HasSubstr("--error is about the volume"));
+  EXPECT_THAT(spheres_message({"a.obj", "--count", "9", "--contract", "both", "--max-reach", "1"}),
+              HasSubstr("use it with --contract cover"));
+}
+
 TEST(SpheresOptions, MistakesAreNamed) {
   EXPECT_EQ(spheres_message({}), "no MESH or ROBOT.urdf given");
   EXPECT_THAT(spheres_message({"a.obj", "--cuont", "9"}), HasSubstr("did you mean --count?"));
@@ -130,6 +152,7 @@ TEST(SpheresOptions, FramesAreOfOneSetInsideAMesh) {
   for (const char* flag : {"--each", "--levels", "--keep-inner-faces"}) EXPECT_THAT(message({flag}), HasSubstr(flag));
   for (const auto& [option, value] : {std::pair("--error", "0.1"),
                                       {"--max-gap", "1"},
+                                      {"--by", "distance"},
                                       {"--method", "source"},
                                       {"--picture", "p.png"},
                                       {"--histogram", "h.svg"},

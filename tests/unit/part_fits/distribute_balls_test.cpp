@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <utility>
 #include <vector>
 
 namespace medial_vk {
@@ -31,6 +32,28 @@ TEST(ShareOut, LooksBeyondABallThatDoesNotPayByItself) {
   EXPECT_THAT(distribute_balls(std::vector<NeedCurve>{ball, ball}, 9), ElementsAre(1, 1));
   const NeedCurve ends = {{3, 2, 1}, false, true};
   EXPECT_THAT(distribute_balls(std::vector<NeedCurve>{ends, early}, 12), ElementsAre(3, 9));
+}
+
+TEST(ShareOut, ByGapTheWidestGapIsAsNarrowAsItCanBe) {
+  const auto with_gaps = [](std::vector<double> gaps, bool ends) {
+    NeedCurve curve;
+    curve.gaps = std::move(gaps);
+    curve.ends = ends;
+    return curve;
+  };
+  NeedCurve ball;
+  ball.is_ball = true;
+  const std::vector<NeedCurve> curves = {with_gaps({5, 3, 3, 2, 1}, false), ball,
+                                         with_gaps({4, 4, 2.5, 1, 0.5}, false)};
+  EXPECT_THAT(distribute_by_gap(curves, 3), ElementsAre(1, 1, 1));
+  EXPECT_THAT(distribute_by_gap(curves, 4), ElementsAre(2, 1, 1));  // widest: 4
+  EXPECT_THAT(distribute_by_gap(curves, 6), ElementsAre(2, 1, 3));  // widest: 3
+  EXPECT_THAT(distribute_by_gap(curves, 8), ElementsAre(4, 1, 3));  // widest: 2.5
+  // Beyond their ends, 1 and 0.5 fall by the root of the number: four times as many balls of the first one.
+  const std::vector<std::size_t> many = distribute_by_gap(curves, 1001);
+  EXPECT_NEAR(static_cast<double>(many[0]), 800, 2);
+  EXPECT_THAT(distribute_by_gap(std::vector<NeedCurve>{with_gaps({5, 5}, true), with_gaps({1}, false)}, 9),
+              ElementsAre(2, 7));
 }
 
 TEST(ShareOut, MoreInTotalGivesNoPartFewer) {

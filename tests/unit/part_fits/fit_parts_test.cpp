@@ -85,6 +85,87 @@ TEST_F(FitParts, MoreInTotalMakesNoPartWorse) {
   }
 }
 
+TEST_F(FitParts, EachPartIsSearchedOnce) {
+  options_.spheres.method = SphereMethod::kBest;
+  options_.spheres.resolution = 12;
+  std::atomic<int> extractions = 0;
+  const Extractor counted = [&](const IndexedMesh& mesh, const ExtractionOptions& options,
+                                const ProgressCallback& progress, const std::stop_token& stop) {
+    ++extractions;
+    return reference_extractor()(mesh, options, progress, stop);
+  };
+  options_.count_per_link = 30;
+  const std::vector<PartFit> fits = fit_parts(parts_, options_, counted).value();
+  EXPECT_EQ(extractions, 2);  // of the boxes, for their curves and their balls
+  EXPECT_EQ(fits[0].levels.back().size() + fits[1].levels.back().size(), 30u);
+  // Each has the balls of a fit of its own.
+  for (const std::size_t part : {0u, 1u}) {
+    SphereFitOptions own = options_.spheres;
+    own.count = fits[part].count;
+    const SphereFit alone = fit_spheres(*parts_[part].mesh, own, reference_extractor()).value();
+    ASSERT_EQ(fits[part].proved.size(), alone.levels.back().size());
+    for (std::size_t i = 0; i < fits[part].proved.size(); ++i) {
+      EXPECT_EQ(fits[part].proved[i].centre, alone.levels.back()[i].centre);
+      EXPECT_EQ(fits[part].proved[i].radius, alone.levels.back()[i].radius);
+    }
+  }
+}
+
+TEST_F(FitParts, BesideBallsOneMeshGetsTheRestWithoutACurve) {
+  parts_[1] = parts_[2];
+  parts_[1].link = "a";
+  options_.spheres.method = SphereMethod::kBest;
+  options_.spheres.resolution = 12;
+  options_.count_per_link = 20;
+  const std::vector<PartFit> fits = fit().value();
+  std::vector<std::size_t> counts;
+  for (const PartFit& part : fits) counts.push_back(part.levels.back().size());
+  EXPECT_THAT(counts, testing::ElementsAre(19, 1, 1));
+}
+
+TEST_F(FitParts, ByDistanceTheWidestGapOfAllPartsIsNarrow) {
+  parts_[1] = box_part("a", "plate", {1.5, 1, 0.02});
+  options_.spheres.method = SphereMethod::kBest;
+  options_.spheres.resolution = 16;
+  options_.total = 25;
+  std::vector<double> widest;
+  for (const SphereAim aim : {SphereAim::kVolume, SphereAim::kDistance}) {
+    options_.spheres.aim = aim;
+    const std::vector<PartFit> fits = fit().value();
+    EXPECT_EQ(fits[0].count + fits[1].count + fits[2].count, 25u);
+    double gap = 0;
+    for (const PartFit& part : fits) {
+      if (!part.measures) continue;
+      EXPECT_TRUE(part.measures->inside.proved());
+      gap = std::max(gap, part.measures->distances.boundary_to_balls.upper);
+    }
+    widest.push_back(gap);
+  }
+  EXPECT_LT(widest[1], 0.7 * widest[0]);
+}
+
+TEST_F(FitParts, WithAGreatestReachPartsHaveTheBallsThatTheyNeed) {
+  options_.spheres.method = SphereMethod::kBest;
+  options_.spheres.contract = SphereContract::kCover;
+  options_.spheres.max_reach = 0.2;
+  options_.spheres.balls_only = true;
+  const std::vector<PartFit> alone = fit().value();
+  for (const PartFit& part : alone) EXPECT_LE(part.reach.back().greatest, 0.2);
+  const std::size_t needed = alone[0].levels.back().size() + alone[1].levels.back().size();
+  EXPECT_GT(needed, 8u);
+  options_.count_per_link = needed;
+  const std::vector<PartFit> enough = fit().value();
+  EXPECT_EQ(enough[0].levels.back().size(), alone[0].levels.back().size());
+  options_.count_per_link = needed - 1;
+  EXPECT_EQ(fit().error().message,
+            "of link \"a\", " + std::to_string(needed) +
+                " balls are found that keep to `max_reach`; raise it, or `count_per_link` from " +
+                std::to_string(needed - 1));
+  options_.count_per_link = 0;
+  options_.total = needed;  // and one more for the part that is a ball
+  EXPECT_THAT(fit().error().message, HasSubstr("raise it, or `total` from"));
+}
+
 TEST_F(FitParts, ThePrimitivesErrorIsThatOfItsShape) {
   Geometry cylinder;
   cylinder.kind = GeometryKind::kCylinder;

@@ -11,6 +11,7 @@
 #include "sphere_fits/cover/cover_family.h"
 #include "sphere_fits/methods/approximate.h"
 #include "sphere_fits/methods/best_method.h"
+#include "sphere_fits/methods/by_distance.h"
 #include "sphere_fits/methods/dilation.h"
 #include "sphere_fits/methods/nearness.h"
 #include "sphere_fits/methods/prefixes.h"
@@ -69,6 +70,7 @@ Status check_request(const Solid& solid, const SphereFitOptions& options) {
     return usage("`error` is a share of the volume, which this mesh does not enclose cleanly; use `count` instead");
   }
   if (Status status = check_distance_bound(solid, options); !status) return status;
+  if (Status status = check_distances(solid, options); !status) return status;
   if (options.balls_only && options.levels) return usage("`balls_only` gives one set of balls, and no levels");
   if (options.for_distances) {
     const bool is_by_count = options.count > 0 && options.error == 0 && options.max_gap == 0 && !options.levels;
@@ -77,7 +79,7 @@ Status check_request(const Solid& solid, const SphereFitOptions& options) {
     return usage("`for_distances` gives sets of the method best, inside or covers, by `count` alone, without levels");
   }
   const bool is_by_resolution = options.method == SphereMethod::kSource && options.resolution > 0;
-  const bool has_goal = options.error > 0 || options.max_gap > 0 || options.max_distance > 0;
+  const bool has_goal = options.error > 0 || options.max_gap > 0 || options.max_reach > 0 || options.max_distance > 0;
   if (options.count == 0 && !has_goal && !is_by_resolution) {
     return usage("there is no goal: give a `count`, an `error` or a `max_gap`");
   }
@@ -214,6 +216,12 @@ Result<std::vector<SphereSet>> best_balanced(const Solid& solid, const SphereFit
 Result<std::vector<SphereSet>> levels_of(const Solid& solid, const SphereFitOptions& options, bool all_levels,
                                          const Extractor& extractor, const SphereProgress& progress) {
   if (Status status = check_request(solid, options); !status) return status.error();
+  if (options.max_reach > 0) return cover_by_reach(solid, options, progress);
+  if (aim_for(solid, options) == SphereAim::kDistance) {
+    SphereFitOptions by_distance = options;
+    by_distance.levels = all_levels;
+    return sets_by_distance(solid, by_distance, progress);
+  }
   if (options.for_distances) {
     Result<SphereSet> set = best_for_distances(solid, options, extractor, progress);
     if (!set) return set.error();
@@ -227,6 +235,9 @@ Result<std::vector<SphereSet>> levels_of(const Solid& solid, const SphereFitOpti
   }
   Result<SphereSet> inside = inside_spheres(solid, options, extractor, progress);
   if (!inside) return inside.error();
+  if (options.contract == SphereContract::kInside && !all_levels) {
+    return std::vector<SphereSet>{std::move(inside).value()};  // with the volumes for fewer balls
+  }
   const std::vector<Ball>& balls = inside.value().balls;
   const std::vector<std::size_t> counts =
       all_levels && !balls.empty() ? level_counts(balls.size()) : std::vector<std::size_t>{balls.size()};

@@ -12,6 +12,7 @@
 #include "base/format_text.h"
 #include "base/point_ops.h"
 #include "sphere_fits/cover/cover_family.h"
+#include "sphere_fits/methods/ball_history.h"
 #include "sphere_fits/methods/distance_bound.h"
 #include "sphere_fits/methods/prefixes.h"
 #include "sphere_fits/quality/envelope_distance.h"
@@ -52,14 +53,12 @@ constexpr double kEnough = 5e-4;  // share of the gain of the new ball: a sweep 
 constexpr double kPointsOfBall = 2048, kPointsOfOneOfMany = 8192, kLeastPoints = 1 << 15;
 constexpr std::size_t kMany = 512;
 
-class Placing {
+class Placing final : public GrowingBalls {
  public:
-  Placing(const Solid& solid, const SphereFitOptions& options, const Extractor& extractor,
-          const SphereProgress& progress, DynamicUnion balls)
+  Placing(const Solid& solid, const SphereFitOptions& options, const Extractor& extractor, DynamicUnion balls)
       : solid_(solid),
         options_(options),
         extractor_(extractor),
-        progress_(progress),
         balls_(std::move(balls)),
         coverage_(solid.mesh().report.lower, solid.mesh().report.upper),
         pool_(options.threads),
@@ -70,31 +69,47 @@ class Placing {
         sampled_gap_(options.max_gap),
         sampled_distance_(options.max_distance) {}
 
-  Result<SphereSet> run() {
+  Result<SphereSet> run(const SphereProgress& progress) {
     const std::size_t most = options_.count > 0 ? options_.count : kMostBalls;
     for (;;) {
+      progress_ = &progress;
       const Result<bool> met = goals_met();
       if (!met) return met.error();
       if (met.value()) return result();
-      if (balls_.size() == most) break;
+      if (balls_.size() == most || ends_) break;
+      if (Status status = grow(balls_.size() + 1, most, progress); !status) return status.error();
+    }
+    if (has_goals()) return unmet();
+    return result();
+  }
+
+  /// Adds balls until there are `count`, or no more are found. `most`: of them, for the reported share.
+  Status grow(std::size_t count, std::size_t most, const SphereProgress& progress) {
+    progress_ = &progress;
+    while (balls_.size() < count && !ends_) {
       if (Status status = find_candidates(); !status.ok()) return status.error();
       Result<std::optional<Candidates::Choice>> choice = choose();
       if (!choice) return choice.error();
-      if (!choice.value()) break;
+      ends_ = !choice.value();
+      if (ends_) break;
       if (Status status = place(*choice.value()); !status.ok()) return status.error();
       const bool ends_stage = is_stage(balls_.size(), most);
       if (Status status = keep_bound_if_due(ends_stage); !status.ok()) return status.error();
       volumes_.push_back(balls_.volume());
       if (std::has_single_bit(balls_.size())) divide_coverage();
       if (ends_stage) stages_[balls_.size()] = all_balls();
-      if (!progress_) continue;
+      if (!progress) continue;
       shown_ = share_done(most);
-      if (!progress_("spheres", shown_)) return Error{ErrorCode::kInterrupted, "interrupted"};
+      if (!progress("spheres", shown_)) return Error{ErrorCode::kInterrupted, "interrupted"};
     }
     if (balls_.size() == 0) return Error{ErrorCode::kInvalidMesh, "no ball fits into the solid"};
-    if (has_goals()) return unmet();
-    return result();
+    return {};
   }
+
+  Status grow(std::size_t count, const SphereProgress& progress) override { return grow(count, count, progress); }
+  bool ends() const override { return ends_; }
+  const std::vector<double>& volumes() const override { return volumes_; }
+  std::vector<Ball> at(std::size_t count) const override { return history_.at(count, all_balls()); }
 
  private:
   /// Covers begin with balls inside; balanced sets of smaller numbers are levels.
@@ -170,12 +185,12 @@ class Placing {
   std::function<bool()> goes_on() const {
     return [&, mutex = std::make_shared<std::mutex>()] {
       const std::lock_guard lock(*mutex);
-      return !progress_ || progress_("spheres", shown_);
+      return !*progress_ || (*progress_)("spheres", shown_);
     };
   }
 
   double share_done(std::size_t most) {
-    if (options_.count > 0) return static_cast<double>(balls_.size()) / static_cast<double>(most);
+    if (!has_goals() || options_.count > 0) return static_cast<double>(balls_.size()) / static_cast<double>(most);
     double share = 1;
     if (options_.error > 0) share = std::min(share, options_.error / moves_->error(balls_));
     if (options_.max_gap > 0) share = std::min(share, options_.max_gap / gaps_.widest_on_boundary().size);
@@ -219,17 +234,17 @@ class Placing {
   }
 
   Status extract(std::uint32_t resolution) {
-    ++levels_;
     ExtractionOptions options;
     options.resolution = resolution;
     options.object_angle = kObjectAngle;
     // Not every voxel needs its point: a search in parts of voxels finds little and takes time.
     options.extra_levels = 0;
     options.threads = options_.threads;
-    const SphereProgress part = [&](const char*, double) { return !progress_ || progress_("medial points", 0); };
+    const SphereProgress part = [&](const char*, double) { return !*progress_ || (*progress_)("medial points", 0); };
     Result<std::vector<Ball>> balls = find_medial_balls(solid_, options, extractor_, part);
     if (!balls) return balls.error();
     candidates_.add(balls.value());
+    ++levels_;
     return {};
   }
 
@@ -290,6 +305,7 @@ class Placing {
     steps_[slot.value()] = kFirstStep * ball.radius;
     if (Status status = slide(slot.value(), around, choice.gain); !status.ok()) return status;
     if (Status status = end_slides(around, before); !status.ok()) return status;
+    history_.add(around, before.balls, balls_in(around));
     // The uncovered volume between a ball and its neighbours lies around their common points.
     candidates_.add(balls_at_vertices(solid_, gaps_, around, pool_));
     return {};
@@ -397,7 +413,6 @@ class Placing {
   const Solid& solid_;
   const SphereFitOptions& options_;
   const Extractor& extractor_;
-  const SphereProgress& progress_;
   DynamicUnion balls_;
   Candidates candidates_;
   Coverage coverage_;  // by the balls of the union
@@ -405,7 +420,9 @@ class Placing {
   NearBoundary near_boundary_;  // of options_.max_distance, if that is given
   std::unique_ptr<BallSteps> moves_;
   GapFinder gaps_;
+  const SphereProgress* progress_ = nullptr;  // of the present call
   std::size_t levels_ = 0;
+  bool ends_ = false;            // no more balls are found
   double shown_ = 0;             // reported share of the work
   std::vector<double> volumes_;  // after each ball
   std::map<std::size_t, std::vector<Ball>> stages_;
@@ -414,15 +431,17 @@ class Placing {
   double sampled_distance_;    // likewise, for the distance of the surfaces
   std::size_t kept_of_ = 0;    // number of balls when they last were made to keep the bound
   std::vector<double> steps_;  // by slot
+  BallHistory history_;
 };
 
-/// Limit of coordinates and radii of balls in the box.
-double largest_number(const MeshReport& report) {
+Result<DynamicUnion> union_for(std::size_t most, const Solid& solid, unsigned threads) {
   double largest = 0;
   for (std::size_t k = 0; k < 3; ++k) {
+    const MeshReport& report = solid.mesh().report;
     largest = std::max({largest, std::fabs(report.lower[k]), std::fabs(report.upper[k])});
   }
-  return 2 * largest;
+  // Coordinates and radii of balls in the box are within twice its own.
+  return DynamicUnion::build(static_cast<std::uint32_t>(most), 2 * largest, threads);
 }
 
 }  // namespace
@@ -430,10 +449,16 @@ double largest_number(const MeshReport& report) {
 Result<SphereSet> best_spheres(const Solid& solid, const SphereFitOptions& options, const Extractor& extractor,
                                const SphereProgress& progress) {
   const std::size_t most = options.count > 0 ? options.count : kMostBalls;
-  Result<DynamicUnion> balls =
-      DynamicUnion::build(static_cast<std::uint32_t>(most), largest_number(solid.mesh().report), options.threads);
+  Result<DynamicUnion> balls = union_for(most, solid, options.threads);
   if (!balls) return balls.error();
-  return Placing(solid, options, extractor, progress, std::move(balls).value()).run();
+  return Placing(solid, options, extractor, std::move(balls).value()).run(progress);
+}
+
+Result<std::unique_ptr<GrowingBalls>> grow_inside(const Solid& solid, const SphereFitOptions& options,
+                                                  const Extractor& extractor) {
+  Result<DynamicUnion> balls = union_for(options.count, solid, options.threads);
+  if (!balls) return balls.error();
+  return std::unique_ptr<GrowingBalls>(std::make_unique<Placing>(solid, options, extractor, std::move(balls).value()));
 }
 
 }  // namespace medial_vk

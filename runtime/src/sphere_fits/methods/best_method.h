@@ -1,6 +1,10 @@
 // The method best: tight balls for a solid, chosen and moved for the contract.
 #pragma once
 
+#include <cstddef>
+#include <memory>
+#include <vector>
+
 #include "sphere_fits/methods/sphere_set.h"
 
 namespace medial_vk {
@@ -14,5 +18,25 @@ namespace medial_vk {
 /// minimise SymmetricDifference, which more balls never increase. Errors: those of approximate_by_spheres().
 Result<SphereSet> best_spheres(const Solid& solid, const SphereFitOptions& options, const Extractor& extractor,
                                const SphereProgress& progress);
+
+/// The search of best_spheres() for balls inside, to be continued: as neither the choice nor the motion of a ball
+/// depends on the requested number, the sets of all numbers up to the present one are known.
+class GrowingBalls {
+ public:
+  virtual ~GrowingBalls() = default;
+  /// Adds balls until there are `count`, or no more are found. Errors: those of best_spheres().
+  virtual Status grow(std::size_t count, const SphereProgress& progress) = 0;
+  /// True if no more balls are found.
+  virtual bool ends() const = 0;
+  /// SphereSet::volumes; as many as there are balls.
+  virtual const std::vector<double>& volumes() const = 0;
+  /// The balls when there were `count`, at most the present number, in no particular order.
+  virtual std::vector<Ball> at(std::size_t count) const = 0;
+};
+
+/// For at most `options.count` balls, with contract inside and without other goals. Keeps references to the solid, the
+/// options and the extractor. Errors: kOutOfMemory, kUsage (2^30 balls). Throws std::bad_alloc.
+Result<std::unique_ptr<GrowingBalls>> grow_inside(const Solid& solid, const SphereFitOptions& options,
+                                                  const Extractor& extractor);
 
 }  // namespace medial_vk

@@ -71,8 +71,9 @@ void Coverage::divide(double density, std::span<const Ball> balls) {
   while (!(points() <= kMostPoints)) spacing_ *= 1.1;
   for (std::size_t k = 0; k < 3; ++k) size_[k] = static_cast<std::size_t>(sides_[k] / spacing_) + 1;
   words_ = (size_[0] + kBits - 1) / kBits;
-  counts_.assign(size_[0] * size_[1] * size_[2], 0);
-  free_.assign(words_ * size_[1] * size_[2], ~std::uint64_t{0});
+  // In a thin part that is bent, few points of the box are in a ball.
+  counts_.assign(size_[0] * size_[1] * size_[2]);
+  held_.assign(words_ * size_[1] * size_[2]);
   for (const Ball& ball : balls) add(ball);
 }
 
@@ -101,7 +102,7 @@ void Coverage::for_each_row(const Ball& ball, const Visit& visit) const {
   }
 }
 
-/// Calls visit(word, bits) for the words of free_ with these points.
+/// Calls visit(word, bits) for the words of held_ with these points.
 template <class Visit>
 void Coverage::for_each_word(std::size_t row, const Range& points, const Visit& visit) const {
   const std::size_t first = points.begin / kBits, last = (points.end - 1) / kBits;
@@ -115,7 +116,7 @@ void Coverage::add(const Ball& ball) {
   for_each_row(ball, [&](std::size_t row, const Range& points) {
     std::uint16_t* const counts = counts_.data() + row * size_[0];
     for (std::size_t i = points.begin; i < points.end; ++i) ++counts[i];
-    for_each_word(row, points, [&](std::size_t word, std::uint64_t mask) { free_[word] &= ~mask; });
+    for_each_word(row, points, [&](std::size_t word, std::uint64_t mask) { held_[word] |= mask; });
   });
 }
 
@@ -126,7 +127,7 @@ void Coverage::remove(const Ball& ball) {
     for (std::size_t i = points.begin; i < points.end; ++i) freed += --counts[i] == 0 ? 1 : 0;
     if (freed == 0) return;
     for (std::size_t i = points.begin; i < points.end; ++i) {
-      if (counts[i] == 0) free_[row * words_ + i / kBits] |= bits(i % kBits, i % kBits + 1);
+      if (counts[i] == 0) held_[row * words_ + i / kBits] &= ~bits(i % kBits, i % kBits + 1);
     }
   });
 }
@@ -135,7 +136,7 @@ double Coverage::uncovered(const Ball& ball) const {
   std::size_t found = 0;
   for_each_row(ball, [&](std::size_t row, const Range& points) {
     for_each_word(row, points, [&](std::size_t word, std::uint64_t mask) {
-      const std::uint64_t here = free_[word] & mask;
+      const std::uint64_t here = mask & ~held_[word];
       if (here != 0) found += static_cast<std::size_t>(std::popcount(here));
     });
   });

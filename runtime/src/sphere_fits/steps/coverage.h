@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "medial_vk/ball.h"
+#include "sphere_fits/steps/zeroed_array.h"
 
 namespace medial_vk {
 
@@ -43,9 +43,9 @@ class Coverage {
   Point lower_{}, sides_{};                      // by axes_, as is what follows
   double spacing_ = 0;
   std::array<std::size_t, 3> size_{};  // points; the first coordinate varies fastest
-  std::vector<std::uint16_t> counts_;
-  std::size_t words_ = 0;            // of each row in free_
-  std::vector<std::uint64_t> free_;  // a bit for each point that no ball holds
+  ZeroedArray<std::uint16_t> counts_;
+  std::size_t words_ = 0;            // of each row in held_
+  ZeroedArray<std::uint64_t> held_;  // a bit for each point that a ball holds
 };
 
 }  // namespace medial_vk

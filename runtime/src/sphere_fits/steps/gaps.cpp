@@ -2,67 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <new>
 #include <utility>
 
 #include "base/point_ops.h"
+#include "sphere_fits/steps/boundary_samples.h"
 
 namespace medial_vk {
-namespace {
-
-constexpr std::size_t kSamples = 20000;
-
-struct BoundarySample {
-  Point at, inward;
-};
-
-/// Corners, and points inside triangles in proportion to their area: a lattice (R_2 of M. Roberts) that is folded into
-/// each triangle.
-std::vector<BoundarySample> sample_boundary(const Mesh& mesh) {
-  std::vector<double> areas;
-  std::vector<Point> inward(mesh.triangles.size()), at_corner(mesh.vertices.size());
-  double total = 0;
-  for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
-    const Triangle& t = mesh.triangles[k];
-    const Point &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-    const Point across = cross(c - a, b - a);
-    const double twice = length(across);
-    if (twice > 0) inward[k] = (1 / twice) * across;
-    for (const std::uint32_t v : t) at_corner[v] = at_corner[v] + inward[k];
-    areas.push_back(0.5 * twice);
-    total += areas.back();
-  }
-  std::vector<BoundarySample> samples;
-  // For very fine meshes a part of the corners suffices.
-  const std::size_t stride = mesh.vertices.size() / kSamples + 1;
-  for (std::size_t v = 0; v < mesh.vertices.size(); v += stride) {
-    const double size = length(at_corner[v]);
-    samples.push_back({mesh.vertices[v], size > 0 ? (1 / size) * at_corner[v] : Point{}});
-  }
-  double due = 0, s = 0.5, t = 0.5;
-  for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
-    const Triangle& triangle = mesh.triangles[k];
-    const Point& a = mesh.vertices[triangle[0]];
-    const Point ab = mesh.vertices[triangle[1]] - a, ac = mesh.vertices[triangle[2]] - a;
-    due += static_cast<double>(kSamples) * areas[k] / total;
-    while (due >= 1) {
-      --due;
-      s = std::fmod(s + 0.7548776662466927, 1);
-      t = std::fmod(t + 0.5698402909980532, 1);
-      const bool folded = s + t > 1;
-      samples.push_back({a + (folded ? 1 - s : s) * ab + (folded ? 1 - t : t) * ac, inward[k]});
-    }
-  }
-  return samples;
-}
-
-}  // namespace
 
 GapFinder::GapFinder(const Solid& solid, const DynamicUnion& balls, bool reach_out)
     : solid_(solid), balls_(balls), reach_out_(reach_out) {
-  for (const BoundarySample& sample : sample_boundary(solid.mesh().mesh)) {
+  constexpr std::size_t kSamples = 20000;
+  for (const BoundarySample& sample : sample_boundary(solid.mesh().mesh, kSamples)) {
     samples_.push_back({sample.at, sample.inward, 0});
   }
 }
@@ -95,10 +47,12 @@ GapFinder::Gap GapFinder::widest_on_boundary() {
     const double bound = distance_to(samples_[k].at, samples_[k].slot);
     if (bound > least || k == widest_) bounds_.emplace_back(bound, k);
   }
-  std::ranges::sort(bounds_, std::greater<>());
+  // Most of the bounds come after the last one that is looked at, so a heap is enough of an order.
+  std::ranges::make_heap(bounds_);
   Gap widest;
-  for (const auto& [bound, k] : bounds_) {
-    if (!(bound > widest.size)) break;
+  for (; !bounds_.empty() && bounds_.front().first > widest.size; bounds_.pop_back()) {
+    std::ranges::pop_heap(bounds_);
+    const std::uint32_t k = bounds_.back().second;
     Sample& sample = samples_[k];
     const double size = refresh(sample);
     if (!(size > widest.size)) continue;
