@@ -9,14 +9,11 @@
 #include <mutex>
 #include <utility>
 
-#include "base/format_text.h"
 #include "base/point_ops.h"
 #include "sphere_fits/cover/cover_family.h"
 #include "sphere_fits/methods/ball_history.h"
-#include "sphere_fits/methods/distance_bound.h"
+#include "sphere_fits/methods/fit_goals.h"
 #include "sphere_fits/methods/prefixes.h"
-#include "sphere_fits/quality/envelope_distance.h"
-#include "sphere_fits/quality/measures.h"
 #include "sphere_fits/steps/ball_steps.h"
 #include "sphere_fits/steps/candidates.h"
 #include "sphere_fits/steps/gap_balls.h"
@@ -37,11 +34,9 @@ constexpr std::array<Level, 4> kLevels = {{{0, 64}, {64, 128}, {512, 256}, {4096
 // Balls of small object angles fill the edges; below this angle, their number grows but not their gain.
 constexpr double kObjectAngle = 0.3;
 
-constexpr std::size_t kGapPeriod = 8;   // every eighth ball is placed by distance instead of volume
-constexpr std::size_t kFirstGap = 16;   // earlier balls form the rough shape
-constexpr double kAsGood = 0.4;         // share of the best gain from which a ball placed by distance is preferred
-constexpr double kSooner = 0.98;        // between two attempts to prove a distance
-constexpr double kGapTolerance = 0.01;  // of the bounds of the greatest gap, as a share of the goal
+constexpr std::size_t kGapPeriod = 8;  // every eighth ball is placed by distance instead of volume
+constexpr std::size_t kFirstGap = 16;  // earlier balls form the rough shape
+constexpr double kAsGood = 0.4;        // share of the best gain from which a ball placed by distance is preferred
 
 /// Step lengths of sliding, in radii of the ball.
 constexpr double kFirstStep = 0.2, kLeastFirstStep = 0.05;
@@ -65,9 +60,7 @@ class Placing final : public GrowingBalls {
         near_boundary_(solid, near_limit(options)),
         moves_(options.contract == SphereContract::kBalanced ? balancing_steps(solid, bound()) : sliding_steps(solid)),
         gaps_(solid, balls_, options.contract == SphereContract::kBalanced),
-        estimated_error_(options.error),
-        sampled_gap_(options.max_gap),
-        sampled_distance_(options.max_distance) {}
+        goals_(solid, options) {}
 
   Result<SphereSet> run(const SphereProgress& progress) {
     const std::size_t most = options_.count > 0 ? options_.count : kMostBalls;
@@ -79,7 +72,7 @@ class Placing final : public GrowingBalls {
       if (balls_.size() == most || ends_) break;
       if (Status status = grow(balls_.size() + 1, most, progress); !status) return status.error();
     }
-    if (has_goals()) return unmet();
+    if (goals_.any()) return goals_.unmet(estimates(), balls_.size());
     return result();
   }
 
@@ -119,66 +112,17 @@ class Placing final : public GrowingBalls {
     return std::binary_search(levels.begin(), levels.end(), count);
   }
 
-  bool has_goals() const { return options_.error > 0 || options_.max_gap > 0 || is_distance_goal(); }
-  /// Otherwise the bound is one for the number of balls.
-  bool is_distance_goal() const {
-    return options_.max_distance > 0 && (options_.count == 0 || options_.error > 0 || options_.max_gap > 0);
+  FitGoals::Estimates estimates() {
+    return {options_.error > 0 ? moves_->error(balls_) : 0,
+            options_.max_gap > 0 || goals_.includes_distance() ? gaps_.widest_on_boundary().size : 0};
   }
 
   Result<bool> goals_met() {
-    if (!has_goals() || balls_.size() == 0) return false;
-    if (options_.error > 0 && !(moves_->error(balls_) <= estimated_error_)) return false;
-    if (is_distance_goal()) {  // first, as this changes balls
-      Result<bool> met = distance_met();
-      if (!met || !met.value()) return met;
-    }
-    if (options_.error > 0) {
-      Result<bool> met = error_met();
-      if (!met || !met.value()) return met;
-    }
-    return options_.max_gap > 0 ? gap_met() : true;
-  }
-
-  /// The reported error is measured independently of the estimate by the steps of balanced balls, which decides when to
-  /// measure.
-  Result<bool> error_met() {
-    const double error = moves_->error(balls_);
-    if (!(error <= estimated_error_)) return false;
-    if (options_.contract != SphereContract::kBalanced) return true;
-    const Result<VolumeError> measured =
-        estimate_volume_error(solid_, all_balls(), {.threads = {options_.threads, goes_on()}});
-    if (!measured) return measured.error();
-    if (measured.value().normalized() <= options_.error) return true;
-    estimated_error_ = 0.999 * std::min(error, error * options_.error / measured.value().normalized());
-    return false;
-  }
-
-  /// Samples decide when a proof is attempted; a proof that fails determines the gap of the samples below which the
-  /// next one is attempted.
-  Result<bool> gap_met() {
-    const double sampled = gaps_.widest_on_boundary().size;
-    if (!(sampled <= sampled_gap_)) return false;
-    const double tolerance = kGapTolerance * options_.max_gap / solid_.diagonal();
-    const Result<Bounds> gap =
-        measure_greatest_gap(solid_, all_balls(), {.tolerance = tolerance, .threads = {options_.threads, goes_on()}});
-    if (!gap) return gap.error();
-    if (gap.value().upper <= options_.max_gap) return true;
-    sampled_gap_ = std::min(sampled, sampled * options_.max_gap / gap.value().upper);
-    return false;
-  }
-
-  /// Samples decide when the distance is measured, as for the gap.
-  Result<bool> distance_met() {
-    const double sampled = gaps_.widest_on_boundary().size;
-    if (!(sampled <= sampled_distance_)) return false;
-    if (Status status = keep_bound(); !status.ok()) return status.error();
-    const Result<Bounds> distance = measure_surface_distance(
-        solid_, all_balls(),
-        {.tolerance = distance_tolerance(solid_, options_), .threads = {options_.threads, goes_on()}});
-    if (!distance) return distance.error();
-    if (distance.value().upper <= options_.max_distance) return true;
-    sampled_distance_ = kSooner * std::min(sampled, sampled * options_.max_distance / distance.value().upper);
-    return false;
+    if (!goals_.any() || balls_.size() == 0) return false;
+    const FitGoals::Estimates now = estimates();
+    if (!goals_.may_be_met(now)) return false;
+    if (Status status = goals_.includes_distance() ? keep_bound() : Status(); !status.ok()) return status.error();
+    return goals_.are_met(now, all_balls(), {options_.threads, goes_on()});
   }
 
   /// For loops on several threads.
@@ -190,38 +134,8 @@ class Placing final : public GrowingBalls {
   }
 
   double share_done(std::size_t most) {
-    if (!has_goals() || options_.count > 0) return static_cast<double>(balls_.size()) / static_cast<double>(most);
-    double share = 1;
-    if (options_.error > 0) share = std::min(share, options_.error / moves_->error(balls_));
-    if (options_.max_gap > 0) share = std::min(share, options_.max_gap / gaps_.widest_on_boundary().size);
-    if (is_distance_goal()) share = std::min(share, options_.max_distance / gaps_.widest_on_boundary().size);
-    return share;
-  }
-
-  Error unmet() {
-    const double gap = options_.max_gap > 0 || is_distance_goal() ? gaps_.widest_on_boundary().size : 0;
-    struct Goal {
-      bool is_given;
-      const char* name;
-      std::string left;
-    };
-    const std::array<Goal, 3> goals = {
-        {{options_.error > 0, "`error`",
-          format_text("{:.3g} of the volume {}", moves_->error(balls_),
-                      options_.contract == SphereContract::kBalanced ? "on either side" : "uncovered")},
-         {options_.max_gap > 0, "`max_gap`", format_text("a gap of {:.3g}", gap)},
-         {is_distance_goal(), "`max_distance`",
-          format_text("surfaces farther apart than {:.3g}", options_.max_distance)}}};
-    std::string left, names;
-    for (const Goal& goal : goals) {
-      if (!goal.is_given) continue;
-      left += (left.empty() ? "" : " and ") + goal.left;
-      names += std::string(", ") + goal.name;
-    }
-    if (const std::size_t last = names.rfind(", "); last != std::string::npos) names.replace(last, 2, " or ");
-    const std::size_t n = balls_.size();
-    return {ErrorCode::kUsage,
-            format_text("{} {} {}; raise `count`{}", n, n == 1 ? "ball leaves" : "balls leave", left, names)};
+    if (goals_.any() && options_.count == 0) return goals_.share_done(estimates());
+    return static_cast<double>(balls_.size()) / static_cast<double>(most);
   }
 
   /// Switches to the next finer medial points, if there are enough balls for them.
@@ -420,15 +334,13 @@ class Placing final : public GrowingBalls {
   NearBoundary near_boundary_;  // of options_.max_distance, if that is given
   std::unique_ptr<BallSteps> moves_;
   GapFinder gaps_;
+  FitGoals goals_;
   const SphereProgress* progress_ = nullptr;  // of the present call
   std::size_t levels_ = 0;
   bool ends_ = false;            // no more balls are found
   double shown_ = 0;             // reported share of the work
   std::vector<double> volumes_;  // after each ball
   std::map<std::size_t, std::vector<Ball>> stages_;
-  double estimated_error_;     // estimate of the steps below which the error is measured
-  double sampled_gap_;         // gap of samples below which a proof is attempted
-  double sampled_distance_;    // likewise, for the distance of the surfaces
   std::size_t kept_of_ = 0;    // number of balls when they last were made to keep the bound
   std::vector<double> steps_;  // by slot
   BallHistory history_;

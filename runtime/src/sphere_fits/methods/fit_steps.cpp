@@ -9,7 +9,7 @@
 
 #include "base/format_text.h"
 #include "base/point_ops.h"
-#include "sphere_fits/methods/distance_bound.h"
+#include "sphere_fits/methods/fit_goals.h"
 #include "sphere_fits/quality/branch_and_bound.h"
 #include "sphere_fits/quality/envelope_distance.h"
 #include "sphere_fits/quality/measures.h"
