@@ -95,7 +95,7 @@ Error FitGoals::unmet(const Estimates& now, std::size_t balls) const {
       {{options_.error > 0, "`error`", format_text("{:.3g} of the volume {}", now.error, side)},
        {options_.max_gap > 0, "`max_gap`", format_text("a gap of {:.3g}", now.gap)},
        {includes_distance(), "`max_distance`",
-        format_text("surfaces farther apart than {:.3g}", options_.max_distance)}}};
+        format_text("surfaces not proved to be within {:.3g} of each other", options_.max_distance)}}};
   std::string left, names = "`count`";
   const auto last = std::find_if(goals.rbegin(), goals.rend(), [](const Goal& goal) { return goal.is_given; });
   for (const Goal& goal : goals) {
