@@ -123,7 +123,8 @@ std::string advice_text(const SpheresOptions& options, const FitsRecord& record)
     const FitAdvice& advice = *solid.advice;
     std::string line = options.is_robot ? fmt::format("{}, {}: ", printable(solid.link), printable(solid.name)) : "";
     line += fmt::format("{:.3g} % uncovered; ", 100 * advice.uncovered);
-    if (advice.inside > 0) line += fmt::format("about {} spheres inside leave a quarter; ", grouped(advice.inside));
+    if (advice.inside > 0)
+      line += fmt::format("about {} spheres inside or more leave a quarter; ", grouped(advice.inside));
     text +=
         labelled("advice", line + fmt::format("{} that cover it reach out by {:.3g} and add {:.3g} times its volume",
                                               grouped(solid.proved.size()), advice.reach, advice.added));

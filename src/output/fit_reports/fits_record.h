@@ -19,7 +19,7 @@ namespace medial_vk {
 /// What may serve better where balls inside leave much of a solid uncovered (docs/theory.md, "Thin parts").
 struct FitAdvice {
   double uncovered = 0;    ///< Share of the volume.
-  std::size_t inside = 0;  ///< About how many balls inside leave a quarter: they have the volume of the solid together.
+  std::size_t inside = 0;  ///< About how many balls inside leave a quarter, where the thickness is even.
   /// As many balls cover all of it that reach out by at most this, mesh units: those inside, grown by their proved
   /// distance from the solid. Of an open mesh, its surface.
   double reach = 0;
