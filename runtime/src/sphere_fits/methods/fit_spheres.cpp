@@ -25,7 +25,7 @@ Result<SphereFit> fit(const Solid& solid, SphereFitOptions options, const Extrac
 Result<SphereSet> inside_of_at_least(const Solid& solid, SphereFitOptions options, const Extractor& extractor,
                                      const SphereProgress& progress) {
   options.contract = SphereContract::kInside;
-  options.error = options.max_gap = options.max_reach = 0;
+  options.error = options.max_gap = options.max_reach = options.max_distance = 0;
   options.aim = SphereAim::kVolume;
   Result<SphereSet> set = approximate_by_spheres(solid, options, extractor, progress);
   for (int tries = 0; !set && set.error().code == ErrorCode::kUsage && tries < 6; ++tries) {

@@ -19,7 +19,7 @@ struct KeptSearch::State {
   State(const IndexedMesh& of_part, const SphereFitOptions& of_fit, std::size_t most, Extractor own)
       : mesh(of_part), options(of_fit), given(std::move(own)), extractor(stopped_by(given, stop)) {
     options.contract = SphereContract::kInside;
-    options.error = options.max_gap = 0;
+    options.error = options.max_gap = options.max_distance = 0;
     options.count = most;
   }
 
@@ -140,7 +140,8 @@ bool has_kept_curve(const SphereFitOptions& options) {
 
 bool is_kept(const SphereFitOptions& options) {
   return has_kept_curve(options) && options.contract == SphereContract::kInside && options.count > 0 &&
-         options.error == 0 && options.max_gap == 0 && options.aim != SphereAim::kAuto;
+         options.error == 0 && options.max_gap == 0 && options.max_reach == 0 && options.max_distance == 0 &&
+         options.aim != SphereAim::kAuto;
 }
 
 }  // namespace medial_vk
