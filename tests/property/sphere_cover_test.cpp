@@ -127,6 +127,25 @@ TEST(SphereCover, MoreBallsAreNeverWorse) {
   }
 }
 
+static_assert(cover_top(16) == 16 && cover_top(17) == 64 && cover_top(64) == 64);
+static_assert(cover_top(65) == 96 && cover_top(97) == 128 && cover_top(129) == 192 && cover_top(193) == 256);
+static_assert(cover_top(500) == 512 && cover_top(513) == 768 && cover_top(20000) == 24576);
+
+TEST(SphereCover, MoreBallsAreNeverWorseBetweenPowersOfTwo) {
+  const PreparedMesh mesh = prepare(make_l_shape(2, 0.6, 0.5));
+  const Solid solid = Solid::build(test::indexed(mesh)).value();
+  std::map<std::size_t, std::vector<Ball>> starts;
+  for (const std::size_t top : {1u, 4u, 16u, 64u, 96u, 128u}) starts[top] = spread_balls(mesh, top);
+  double before = 1e300;
+  for (const std::size_t count : {60u, 64u, 65u, 90u, 96u, 97u, 128u}) {
+    const SphereSet cover = std::move(cover_by_counts(solid, starts, {count}).value().front());
+    EXPECT_LE(cover.balls.size(), count);
+    const double volume = measure_ball_union(cover.balls).value().volume;
+    EXPECT_LE(volume, before * (1 + 1e-12)) << count;
+    before = volume;
+  }
+}
+
 /// Every cover by fewer balls is smaller here, so none of those in the family is kept but the smallest ball around all.
 TEST(SphereCover, OfABallIsOneBall) {
   const PreparedMesh mesh = prepare(make_sphere(1, 320));

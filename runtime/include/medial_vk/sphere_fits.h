@@ -52,7 +52,7 @@ struct SphereFitOptions {
   double max_gap = 0;  ///< Greatest distance from the boundary to the balls, mesh units; 0: no such goal.
   /// kBalanced: the greatest Hausdorff distance of the boundary and the surface of the balls, mesh units; 0: no such
   /// bound. With `count` alone, a bound for so many balls (kUsage if they cannot keep it), else a goal. By the method
-  /// best; at least 1e-4 of the diagonal of the solid's box.
+  /// best; at least 1e-3 of the diagonal of the solid's box.
   double max_distance = 0;
   /// kCover: greatest distance by which balls reach out, mesh units (ReachOut::greatest); 0: no such goal. With `count`
   /// as a limit, or alone: without `error`, `levels` and `for_distances`, by the method best.

@@ -33,8 +33,9 @@ How many spheres (goals that are given together must all be met):
       --max-reach R     with --contract cover: as few as reach out by no more
                         than R, in units of the mesh (robot: metres)
       --max-distance D  with --contract balanced: the surfaces of spheres and
-                        solid are nowhere farther apart than D, in either
-                        direction; with --count a bound, alone as many as needed
+                        solid are nowhere farther apart than D, in units of the
+                        mesh (robot: metres), in either direction; with --count
+                        a bound, alone as many as needed
       --levels          also N/2, N/4 ... 1 of them, to choose from at run time
                         (csv, json, foam)
 

@@ -166,6 +166,12 @@ Status check_goals(const SpheresOptions& options) {
                            ? "no goal is given: use --count-per-link N, --total N, --error E or --max-reach R"
                            : "no goal is given: use --count N, --error E or --max-reach R");
   }
+  if (fit.contract == SphereContract::kBalanced && !options.both) {
+    return usage_error(options.is_robot
+                           ? "no goal is given: use --count-per-link N, --total N, --error E, --max-gap G or "
+                             "--max-distance D"
+                           : "no goal is given: use --count N, --error E, --max-gap G or --max-distance D");
+  }
   return usage_error(options.is_robot ? "no goal is given: use --count-per-link N, --total N, --error E or --max-gap G"
                      : options.both   ? "no goal is given: use --count N or --error E"
                                       : "no goal is given: use --count N, --error E or --max-gap G");

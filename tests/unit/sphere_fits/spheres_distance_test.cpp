@@ -300,5 +300,67 @@ TEST(EnvelopeDistance, OfAnOpenSolidHasTheSameTolerance) {
   }
 }
 
+std::vector<Ball> random_balls(std::mt19937& random, std::size_t count) {
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<Ball> balls;
+  while (balls.size() < count) {
+    const double x = uniform(random), y = uniform(random), z = uniform(random);
+    balls.push_back({{2 * x, 2 * y, 2 * z}, 0.2 + 0.4 * uniform(random)});
+  }
+  return balls;
+}
+
+/// The first point in no ball along a half-line, by the ends of the stretches in which balls meet it.
+double first_exit(const std::vector<Ball>& balls, const Point& from, const Point& direction) {
+  std::vector<std::pair<double, double>> stretches;
+  for (const Ball& ball : balls) {
+    const Point w = from - ball.centre;
+    const double middle = -dot(w, direction), squared = middle * middle + ball.radius * ball.radius - dot(w, w);
+    if (squared > 0) stretches.emplace_back(middle - std::sqrt(squared), middle + std::sqrt(squared));
+  }
+  std::sort(stretches.begin(), stretches.end());
+  double exit = 0;
+  for (const auto& [begin, end] : stretches) {
+    if (begin <= exit) exit = std::max(exit, end);
+  }
+  return exit;
+}
+
+TEST(EnvelopeDistance, AlongALineIsTheFirstExitOrNone) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  int found = 0;
+  for (int set = 0; set < 20; ++set) {
+    const std::vector<Ball> balls = random_balls(random, 12);
+    const Envelope envelope = envelope_of(balls);
+    for (int k = 0; k < 200; ++k) {
+      const double x = 1 + uniform(random), y = 1 + uniform(random), z = 1 + uniform(random);
+      const Point p = {x, y, z};
+      if (!envelope.tree().holds(p)) continue;
+      const Point direction = spiral_point(static_cast<std::size_t>(k), 200);
+      const double along = envelope.distance_along(p, direction, 10);
+      if (!std::isfinite(along)) continue;  // through many balls
+      ++found;
+      EXPECT_NEAR(along, first_exit(balls, p, direction), 1e-6);  // a grazed sphere doubles the digits that are lost
+      EXPECT_GE(along, envelope.distance(p) - envelope.distance_error());
+      EXPECT_FALSE(std::isfinite(envelope.distance_along(p, direction, 0.9 * along)) &&
+                   envelope.distance_along(p, direction, 0.9 * along) < 0.9 * along);
+    }
+  }
+  EXPECT_GT(found, 1000);
+}
+
+TEST(EnvelopeDistance, OfSurfacesIsThatOfAllMeasures) {
+  const Case cube(make_box({2, 2, 2}));
+  std::mt19937 random(12);
+  for (int set = 0; set < 5; ++set) {
+    const std::vector<Ball> balls = random_balls(random, 12);
+    const Bounds all = measure_distances(*cube.solid, envelope_of(balls)).value().between_surfaces();
+    const Bounds alone = measure_surface_distance(*cube.solid, balls).value();
+    EXPECT_EQ(alone.lower, all.lower);
+    EXPECT_EQ(alone.upper, all.upper);
+  }
+}
+
 }  // namespace
 }  // namespace medial_vk

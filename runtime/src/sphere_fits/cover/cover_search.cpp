@@ -121,6 +121,18 @@ double CoverSearch::share(std::uint32_t i) const {
   return sum;
 }
 
+double CoverSearch::share_beside(std::uint32_t i, std::uint32_t j) const {
+  double sum = 0;
+  for (const Touch& touch : touched_[i]) {
+    double rest = 0;
+    for (const Holder& holder : holders_[touch.element]) {
+      if (holder.ball != i && holder.ball != j) rest = std::max(rest, holder.height);
+    }
+    if (touch.height > rest) sum += cost_of(touch.element, touch.height) - cost_of(touch.element, rest);
+  }
+  return sum;
+}
+
 bool CoverSearch::costs_more(std::uint32_t i, double radius, double most) const {
   const Ball ball = {balls_[i].centre, radius};
   double sum = 0;

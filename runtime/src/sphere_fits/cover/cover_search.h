@@ -83,6 +83,8 @@ class CoverSearch {
   Ball around(const std::vector<std::uint32_t>& some) const;
   /// The part of the sum that only ball i causes.
   double share(std::uint32_t i) const;
+  /// The same once ball j is gone, too.
+  double share_beside(std::uint32_t i, std::uint32_t j) const;
   /// True if the ball with this radius adds more than `most` to the columns over the elements that it touches now.
   bool costs_more(std::uint32_t i, double radius, double most) const;
   Ball best_around(std::uint32_t i, const std::vector<std::uint32_t>& some, int halvings) const;

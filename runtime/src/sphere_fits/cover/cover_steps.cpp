@@ -250,7 +250,7 @@ std::array<Point, 2> CoverSearch::tips(std::uint32_t i) const {
 bool CoverSearch::move_to(std::uint32_t free, std::uint32_t wide) {
   const double total = total_;
   std::vector<Saved> saved = {{wide, balls_[wide]}};
-  if (!leave(free, wide, share(wide), saved)) return false;
+  if (!leave(free, wide, share_beside(wide, free), saved)) return false;
   // Two balls in place of `wide` leave at least what others cause.
   if (total_ - share(wide) >= total * (1 - 1e-6)) {
     undo(saved);

@@ -49,7 +49,7 @@ Result<SphereSet> keep_contract(const Solid& solid, SphereSet inside, const Sphe
 }
 
 Status check_distance_bound(const Solid& solid, const SphereFitOptions& options) {
-  constexpr double kLeast = 1e-4;  // of the diagonal
+  constexpr double kLeast = 1e-3;  // of the diagonal
   if (!std::isfinite(options.max_distance) || options.max_distance < 0) {
     return usage("`max_distance` must be finite and not negative");
   }
@@ -57,7 +57,7 @@ Status check_distance_bound(const Solid& solid, const SphereFitOptions& options)
   if (options.contract != SphereContract::kBalanced || options.method != SphereMethod::kBest) {
     return usage("`max_distance` is about balanced balls of the `method` best");
   }
-  if (options.max_distance < kLeast * solid.diagonal()) return usage("`max_distance` is below 1e-4 of the diagonal");
+  if (options.max_distance < kLeast * solid.diagonal()) return usage("`max_distance` is below 1e-3 of the diagonal");
   return {};
 }
 
@@ -81,7 +81,7 @@ Status check_request(const Solid& solid, const SphereFitOptions& options) {
   const bool is_by_resolution = options.method == SphereMethod::kSource && options.resolution > 0;
   const bool has_goal = options.error > 0 || options.max_gap > 0 || options.max_reach > 0 || options.max_distance > 0;
   if (options.count == 0 && !has_goal && !is_by_resolution) {
-    return usage("there is no goal: give a `count`, an `error` or a `max_gap`");
+    return usage("there is no goal: give a `count`, an `error`, a `max_gap`, a `max_reach` or a `max_distance`");
   }
   // Balls inside keep a distance of the rounding from the boundary.
   if (options.max_gap > 0 && options.max_gap < 16 * solid.rounding()) {
@@ -119,12 +119,15 @@ Result<SphereSet> cover_for_error(const Solid& solid, const SphereFitOptions& op
   const double volume = (1 + options.error) * solid.volume();
   std::map<std::size_t, std::vector<Ball>> starts;
   CoverFamily family(solid, starts, options.threads, progress);
-  for (std::size_t top = 1;; top = cover_top(top + 1)) {
-    const std::size_t count = std::min(top, most);
+  for (std::size_t top = 1;; top *= top < 64 ? 4 : 2) {
+    const std::size_t count = std::min(top, most), half = top / 4 * 3;
     Result<SphereSet> inside = cover_starts(solid, options, count, extractor, progress);
     if (!inside) return inside.error();
-    starts = std::move(inside.value().stages);  // the previous starts, and one more
-    if (std::vector<Ball> cover = family.few(count, volume); !cover.empty()) return SphereSet{std::move(cover)};
+    starts = std::move(inside.value().stages);  // the previous starts, and one or two more
+    for (const std::size_t tried : {half, count}) {
+      if (tried == half && (cover_top(half) != half || half >= count)) continue;
+      if (std::vector<Ball> cover = family.few(tried, volume); !cover.empty()) return SphereSet{std::move(cover)};
+    }
     if (count == most) return usage("no cover of so many balls adds so little; raise `count` or `error`");
   }
 }

@@ -86,11 +86,10 @@ class Placing final : public GrowingBalls {
       ends_ = !choice.value();
       if (ends_) break;
       if (Status status = place(*choice.value()); !status.ok()) return status.error();
-      const bool ends_stage = is_stage(balls_.size(), most);
-      if (Status status = keep_bound_if_due(ends_stage); !status.ok()) return status.error();
+      if (Status status = keep_bound_if_due(); !status.ok()) return status.error();
       volumes_.push_back(balls_.volume());
       if (std::has_single_bit(balls_.size())) divide_coverage();
-      if (ends_stage) stages_[balls_.size()] = all_balls();
+      if (is_stage(balls_.size(), most)) stages_[balls_.size()] = bounded_balls();
       if (!progress) continue;
       shown_ = share_done(most);
       if (!progress("spheres", shown_)) return Error{ErrorCode::kInterrupted, "interrupted"};
@@ -121,8 +120,7 @@ class Placing final : public GrowingBalls {
     if (!goals_.any() || balls_.size() == 0) return false;
     const FitGoals::Estimates now = estimates();
     if (!goals_.may_be_met(now)) return false;
-    if (Status status = goals_.includes_distance() ? keep_bound() : Status(); !status.ok()) return status.error();
-    return goals_.are_met(now, all_balls(), {options_.threads, goes_on()});
+    return goals_.are_met(now, bounded_balls(), {options_.threads, goes_on()});
   }
 
   /// For loops on several threads.
@@ -290,24 +288,36 @@ class Placing final : public GrowingBalls {
   }
   const NearBoundary* bound() const { return options_.max_distance > 0 ? &near_boundary_ : nullptr; }
 
-  /// Replaces balls by those that keep the bound of the distance, if there is one.
-  Status keep_bound() {
-    if (bound() == nullptr || kept_of_ == balls_.size()) return {};
+  /// The present balls, or those that remain of them if there is a bound of the distance. The search does not go on
+  /// from these, so that its state does not depend on when they are needed.
+  const std::vector<Ball>& bounded_balls() {
+    if (bounded_of_ == balls_.size()) return bounded_;
+    bounded_of_ = balls_.size();
+    bounded_ = all_balls();
+    if (bound() == nullptr) return bounded_;
+    bounded_ = NearBoundary(near_boundary_).keep(bounded_, {options_.threads, goes_on()});
+    bounded_.erase(std::remove_if(bounded_.begin(), bounded_.end(), [](const Ball& ball) { return ball.radius <= 0; }),
+                   bounded_.end());
+    return bounded_;
+  }
+
+  /// Whenever the number of balls has grown by a sixteenth, they are replaced by those that keep the bound, so that
+  /// further balls fill what has been left. A ball of which nothing remains stays as a point.
+  Status keep_bound_if_due() {
+    constexpr std::size_t kFirst = 8, kShare = 16;
+    if (bound() == nullptr || balls_.size() < std::max(kFirst, kept_of_ + kept_of_ / kShare + 1)) return {};
     kept_of_ = balls_.size();
     const std::vector<Ball> kept = near_boundary_.keep(all_balls(), {options_.threads, goes_on()});
+    std::vector<Ball> shrunk;
     for (std::uint32_t slot = 0; slot < balls_.slots(); ++slot) {
       const Ball before = balls_.ball(slot), after = {before.centre, std::max(kept[slot].radius, solid_.rounding())};
       if (after.radius >= before.radius) continue;
       if (Status status = moves_->replace(balls_, slot, after); !status.ok()) return status;
       cover_anew(before, after);
+      shrunk.push_back(before);
     }
+    if (!shrunk.empty()) candidates_.note_shrunk(shrunk);
     return settle();
-  }
-  /// For every stage, and from time to time, so that further balls fill what has been left.
-  Status keep_bound_if_due(bool is_stage) {
-    constexpr std::size_t kFirst = 8, kShare = 16;
-    const bool is_due = is_stage || balls_.size() >= std::max(kFirst, kept_of_ + kept_of_ / kShare + 1);
-    return is_due ? keep_bound() : Status();
   }
   std::vector<Ball> balls_in(std::span<const std::uint32_t> slots) const {
     std::vector<Ball> balls;
@@ -317,8 +327,7 @@ class Placing final : public GrowingBalls {
   }
 
   Result<SphereSet> result() {
-    if (Status status = keep_bound(); !status.ok()) return status.error();
-    SphereSet set = {all_balls(), volumes_, stages_};
+    SphereSet set = {bounded_balls(), volumes_, stages_};
     if (options_.contract == SphereContract::kInside) set.stages[cover_top(balls_.size())] = set.balls;
     if (Status status = order_by_share(set.balls, options_.threads); !status.ok()) return status.error();
     return set;
@@ -342,6 +351,8 @@ class Placing final : public GrowingBalls {
   std::vector<double> volumes_;  // after each ball
   std::map<std::size_t, std::vector<Ball>> stages_;
   std::size_t kept_of_ = 0;    // number of balls when they last were made to keep the bound
+  std::vector<Ball> bounded_;  // bounded_balls() of so many balls:
+  std::size_t bounded_of_ = 0;
   std::vector<double> steps_;  // by slot
   BallHistory history_;
 };

@@ -36,7 +36,7 @@ bool FitGoals::may_be_met(const Estimates& now) const {
 }
 
 Result<bool> FitGoals::are_met(const Estimates& now, std::span<const Ball> balls, const Threads& threads) {
-  if (!any() || !may_be_met(now)) return false;
+  if (!any() || balls.empty() || !may_be_met(now)) return false;
   for (const auto goal : {&FitGoals::distance_is_met, &FitGoals::error_is_met, &FitGoals::gap_is_met}) {
     Result<bool> met = (this->*goal)(now, balls, threads);
     if (!met || !met.value()) return met;

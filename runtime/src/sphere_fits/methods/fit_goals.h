@@ -7,6 +7,7 @@
 
 #include "medial_vk/sphere_fits.h"
 #include "solid/solid.h"
+#include "sphere_fits/quality/measures.h"
 #include "sphere_fits/quality/threads.h"
 
 namespace medial_vk {
@@ -17,7 +18,7 @@ inline double near_limit(const SphereFitOptions& options) { return 15.0 / 16 * o
 
 /// Of the bounds of the measured distance, as a share of the diagonal.
 inline double distance_tolerance(const Solid& solid, const SphereFitOptions& options) {
-  return std::min(2e-4, options.max_distance / (32 * solid.diagonal()));
+  return std::min(MeasureOptions().tolerance, options.max_distance / (32 * solid.diagonal()));
 }
 
 /// Of the best method, inside and balanced. A measurement that fails determines the estimate below which the next one

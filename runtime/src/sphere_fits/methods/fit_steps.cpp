@@ -32,17 +32,22 @@ Status check_contract(SphereContract contract, const SphereMeasures& measures) {
 }
 
 /// Balls that do not keep the bound of the distance are not returned.
+Status check_bound(const Bounds& distance, std::size_t count, const SphereFitOptions& options) {
+  if (options.max_distance <= 0 || distance.upper <= options.max_distance) return {};
+  return Error{ErrorCode::kUsage,
+               format_text("{} {} the surfaces within {:.4g} of each other; raise `count` or `max_distance`", count,
+                           count == 1 ? "ball keeps" : "balls keep", distance.upper)};
+}
+
+/// Without other measures.
 Status check_distance(const Solid& solid, const std::vector<Ball>& balls, const SphereFitOptions& options,
                       const SphereProgress& progress) {
-  if (options.max_distance <= 0) return {};
+  if (options.max_distance <= 0 || !options.balls_only) return {};
   const Threads threads = {options.threads, [&progress] { return progress("spheres", 1); }};
   const Result<Bounds> distance =
       measure_surface_distance(solid, balls, {.tolerance = distance_tolerance(solid, options), .threads = threads});
   if (!distance) return distance.error();
-  if (distance.value().upper <= options.max_distance) return {};
-  return Error{ErrorCode::kUsage,
-               format_text("{} balls keep the surfaces within {:.3g} of each other; raise `count` or `max_distance`",
-                           balls.size(), distance.value().upper)};
+  return check_bound(distance.value(), balls.size(), options);
 }
 
 /// The distance of a point of a ball outside the solid is at most the difference of radius and distance of the centre
@@ -68,7 +73,11 @@ ReachOut reach_of(const Solid& solid, SphereContract contract, const std::vector
 Result<SphereMeasures> measures_of(const Solid& solid, const std::vector<Ball>& balls, const SphereFitOptions& options,
                                    const SphereProgress& progress) {
   const Threads threads = {options.threads, [&progress] { return progress("spheres", 1); }};
-  if (!options.balls_only) return measure_spheres(solid, balls, {.threads = threads});
+  if (!options.balls_only) {
+    MeasureOptions how = {.threads = threads};
+    if (options.max_distance > 0) how.tolerance = distance_tolerance(solid, options);
+    return measure_spheres(solid, balls, how);
+  }
   SphereMeasures proofs;
   if (options.contract == SphereContract::kInside) {
     try {
@@ -124,6 +133,10 @@ Result<SphereFit> finish_fit(const Solid& solid, std::vector<SphereSet> sets, co
   Result<SphereMeasures> measured = measures_of(solid, sets.back().balls, options, progress);
   if (!measured) return measured.error();
   if (Status status = check_contract(options.contract, measured.value()); !status) return status.error();
+  if (!options.balls_only) {
+    const Bounds distance = measured.value().distances.between_surfaces();
+    if (Status status = check_bound(distance, sets.back().balls.size(), options); !status) return status.error();
+  }
   SphereFit out;
   out.measures = std::move(measured).value();
   out.aim = options.aim;

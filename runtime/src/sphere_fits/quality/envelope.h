@@ -42,7 +42,7 @@ class Envelope {
   /// `enough`, the result may be any number between it and `enough`.
   double distance(const Point& p, double enough = 0) const;
   /// From a point in the balls to where the half-line along a unit direction first leaves them, unless that is farther
-  /// than `most`: then infinity. No smaller than distance() less distance_error().
+  /// than `most`: then infinity. The point there is in no ball by more than tolerance().
   double distance_along(const Point& p, const Point& direction, double most) const;
   /// The same as distance(), negative in the balls (Figure 8-2 has the opposite sign for the boundary).
   double signed_distance(const Point& p) const;

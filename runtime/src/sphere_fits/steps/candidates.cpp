@@ -4,17 +4,32 @@
 #include <numbers>
 #include <utility>
 
+#include "base/point_ops.h"
+
 namespace medial_vk {
 namespace {
 
 /// Candidates that are measured at once, on all threads.
 constexpr std::size_t kAtOnce = 16;
 
+double volume_of(const Ball& ball) { return 4 * std::numbers::pi / 3 * ball.radius * ball.radius * ball.radius; }
+
 }  // namespace
+
+void Candidates::note_shrunk(std::span<const Ball> before) {
+  for (std::size_t candidate = 0; candidate < balls_.size(); ++candidate) {
+    const Ball& ball = balls_[candidate];
+    const bool met = std::any_of(before.begin(), before.end(), [&](const Ball& other) {
+      return length(other.centre - ball.centre) < other.radius + ball.radius;
+    });
+    if (met && bounds_[candidate] != kTaken) bounds_[candidate] = volume_of(ball);
+  }
+  queue_ = by_bounds();
+}
 
 void Candidates::add(std::span<const Ball> balls) {
   for (const Ball& ball : balls) {
-    const double volume = 4 * std::numbers::pi / 3 * ball.radius * ball.radius * ball.radius;
+    const double volume = volume_of(ball);
     queue_.push({volume, static_cast<std::uint32_t>(balls_.size()), round_});
     balls_.push_back(ball);
     bounds_.push_back(volume);

@@ -29,6 +29,9 @@ class Candidates {
   void find_promising(const Coverage& coverage);
   /// For another lattice: gains that have been measured bound the candidates again, or their volumes.
   void forget_estimates() { queue_ = by_bounds(); }
+  /// To be called when balls have been replaced by smaller ones: gains of candidates that met them are no bounds any
+  /// more.
+  void note_shrunk(std::span<const Ball> before);
   /// The ball with the greatest gain, which is then no candidate any more; no value if none has a gain. Without a call
   /// of find_promising() for it, or if no promising ball has a gain, all are measured exactly as far as needed. Error:
   /// kOutOfMemory.

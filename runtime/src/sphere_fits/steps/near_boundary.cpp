@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <iterator>
 #include <new>
+#include <stdexcept>
 
 #include "base/point_ops.h"
 #include "sphere_fits/quality/branch_and_bound.h"
@@ -34,11 +35,13 @@ struct Buried {
 class BuriedPoints {
  public:
   /// Depths of up to `most` are allowed.
-  BuriedPoints(const Envelope& envelope, double most) : envelope_(envelope), most_(most) {}
+  BuriedPoints(const Envelope& envelope, double most, const Threads& threads)
+      : envelope_(envelope), most_(most), threads_(threads) {}
 
   /// Appends points of this part of the boundary such that each of its points is within `most` of one of them, or not
   /// deeper than `most`.
   void find(const TrianglePart& part, std::vector<Buried>& found) const {
+    threads_.check();
     const Point middle = part.middle();
     const double reach = part.reach(middle), enough = most_ - reach;
     const double outside = envelope_.tree().nearest(middle).distance;
@@ -61,19 +64,37 @@ class BuriedPoints {
 
   const Envelope& envelope_;
   double most_;
+  const Threads& threads_;
 };
+
+/// Of a size at which threads can share them.
+std::vector<TrianglePart> parts_of_boundary(const Mesh& mesh, double most) {
+  constexpr std::size_t kEnough = 4096;
+  std::vector<TrianglePart> parts, next;
+  parts.reserve(mesh.triangles.size());
+  for (const auto& [a, b, c] : mesh.triangles)
+    parts.push_back({{mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]}});
+  for (bool is_divided = true; is_divided && parts.size() < kEnough;) {
+    is_divided = false;
+    next.clear();
+    for (const TrianglePart& part : parts) {
+      const bool is_large = part.reach(part.middle()) > 2 * most;
+      is_divided |= is_large;
+      is_large ? split_part(part, next) : next.push_back(part);
+    }
+    parts.swap(next);
+  }
+  return parts;
+}
 
 /// The deepest first.
 std::vector<Buried> find_buried(const Solid& solid, const Envelope& envelope, double most, const Threads& threads) {
-  const Mesh& mesh = solid.mesh().mesh;
-  const BuriedPoints points(envelope, most);
-  std::vector<std::vector<Buried>> by_triangle(mesh.triangles.size());
-  for_all(mesh.triangles.size(), 16, threads, [&](std::size_t t) {
-    const auto [a, b, c] = mesh.triangles[t];
-    points.find({{mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]}}, by_triangle[t]);
-  });
+  const std::vector<TrianglePart> parts = parts_of_boundary(solid.mesh().mesh, most);
+  const BuriedPoints points(envelope, most, threads);
+  std::vector<std::vector<Buried>> by_part(parts.size());
+  for_all(parts.size(), 4, threads, [&](std::size_t i) { points.find(parts[i], by_part[i]); });
   std::vector<Buried> all;
-  for (const std::vector<Buried>& some : by_triangle) all.insert(all.end(), some.begin(), some.end());
+  for (const std::vector<Buried>& some : by_part) all.insert(all.end(), some.begin(), some.end());
   std::stable_sort(all.begin(), all.end(), [](const Buried& a, const Buried& b) { return a.depth > b.depth; });
   return all;
 }
@@ -109,11 +130,18 @@ Point NearBoundary::cheapest_around(const Point& deep, std::span<const Ball> bal
   return best;
 }
 
-/// The balls that hold the point shrink until it lies on their spheres.
-void NearBoundary::expose(const Point& deep, std::vector<Ball>& balls) {
+/// The balls that hold the point shrink until it lies on their spheres. Returns whether any did.
+bool NearBoundary::expose(const Point& deep, std::vector<Ball>& balls) {
   const Point point = cheapest_around(deep, balls);
-  for (Ball& ball : balls) ball.radius = std::min(ball.radius, kRoom * length(point - ball.centre));
+  bool shrinks = false;
+  for (Ball& ball : balls) {
+    const double radius = kRoom * length(point - ball.centre);
+    if (radius >= ball.radius) continue;
+    ball.radius = radius;
+    shrinks = true;
+  }
   exposed_.push_back(point);
+  return shrinks;
 }
 
 double NearBoundary::greatest_radius(const Point& centre) const {
@@ -123,9 +151,10 @@ double NearBoundary::greatest_radius(const Point& centre) const {
   return radius;
 }
 
-/// An exposed point remains exposed, as balls only shrink, so no point within `most` of it is too deep any more. A
-/// point that still is lies farther from it than kNearly `most`, and the point that is exposed for its sake no nearer
-/// than (kNearly - kFarthest) `most`. So the number of exposed points is finite.
+/// An exposed point remains exposed, as balls only shrink, so no point within `most` of it is too deep any more. A point
+/// that still is lies farther from it than kNearly `most`; in the same round, than `most`, since others are passed over.
+/// The point that is exposed for its sake is no nearer than (kNearly - kFarthest) `most`, so the number of exposed
+/// points is finite.
 std::vector<Ball> NearBoundary::keep(std::span<const Ball> balls, const Threads& threads) {
   std::vector<Ball> kept(balls.begin(), balls.end());
   for_all(kept.size(), 16, threads, [&](std::size_t i) {
@@ -141,11 +170,14 @@ std::vector<Ball> NearBoundary::keep(std::span<const Ball> balls, const Threads&
     const std::vector<Buried> buried = find_buried(solid_, envelope.value(), most_, threads);
     if (buried.empty()) return kept;
     const std::size_t known = exposed_.size();
+    bool shrinks = false;
     for (const Buried& each : buried) {
       const bool is_settled = std::any_of(exposed_.begin() + static_cast<std::ptrdiff_t>(known), exposed_.end(),
                                           [&](const Point& p) { return length(p - each.at) <= most_; });
-      if (!is_settled) expose(each.at, kept);
+      if (!is_settled) shrinks |= expose(each.at, kept);
     }
+    // Only if depths have errors of some hundredths of the bound.
+    if (!shrinks) throw std::runtime_error("the depth of the boundary in the balls is too inexact for the bound");
   }
 }
 

@@ -23,7 +23,8 @@ class NearBoundary {
 
   /// Balls that reach out by no more than kReachShare `most`, and no point of the boundary lies deeper in their union
   /// than `most`: these balls, some with smaller radii, which may be 0. Balls that lie in the solid remain as they are.
-  /// Adds exposed points. Deterministic. Throws std::bad_alloc and Stopped.
+  /// Adds exposed points. Deterministic. Throws std::bad_alloc, Stopped, and std::runtime_error if depths cannot be
+  /// computed as exactly as the bound requires.
   std::vector<Ball> keep(std::span<const Ball> balls, const Threads& threads);
 
   /// The greatest radius of a ball around this centre that reaches out by no more than kReachShare `most`, and holds no
@@ -31,7 +32,7 @@ class NearBoundary {
   double greatest_radius(const Point& centre) const;
 
  private:
-  void expose(const Point& deep, std::vector<Ball>& balls);
+  bool expose(const Point& deep, std::vector<Ball>& balls);
   Point cheapest_around(const Point& deep, std::span<const Ball> balls) const;
 
   const Solid& solid_;
