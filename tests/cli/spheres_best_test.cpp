@@ -112,7 +112,7 @@ TEST_F(SpheresCommand, ThinPartsAreSpreadOverCoveredAndAdvisedOn) {
   EXPECT_TRUE(advice["by_distance"]);
   EXPECT_EQ(advice["cover"]["reach"], by_volume["measures"]["distances"]["solid_to_balls"]["upper"]);
   EXPECT_THAT(volume.err, HasSubstr("advice    99.3 % uncovered; about 2,86"));
-  EXPECT_THAT(volume.err, HasSubstr("--by auto to spread those inside evenly"));
+  EXPECT_THAT(volume.err, HasSubstr("--by distance to spread those inside evenly"));
 
   const ToolResult distance = best({"plate.obj", "--count", "20", "--by", "auto", "--check"});
   ASSERT_EQ(distance.exit_code, 0) << distance.err;
@@ -120,7 +120,7 @@ TEST_F(SpheresCommand, ThinPartsAreSpreadOverCoveredAndAdvisedOn) {
   EXPECT_EQ(by_distance["by"], "distance");
   EXPECT_FALSE(by_distance["advice"]["by_distance"]);
   EXPECT_LT(by_distance["advice"]["cover"]["reach"], advice["cover"]["reach"]);
-  EXPECT_THAT(distance.err, Not(HasSubstr("--by auto")));
+  EXPECT_THAT(distance.err, Not(HasSubstr("--by distance")));
 
   // As many spheres cover the plate with the reach that the advice gives, or fewer, and add no more.
   const auto reach = by_distance["advice"]["cover"]["reach"].get<double>();

@@ -137,7 +137,7 @@ std::string advice_text(const SpheresOptions& options, const FitsRecord& record)
   return text +
          labelled("advice", fmt::format("--contract cover --max-reach R for covers (on sheets, half of R takes four "
                                         "times as many spheres){}",
-                                        by_distance ? "; --by auto to spread those inside evenly" : ""));
+                                        by_distance ? "; --by distance to spread those inside evenly" : ""));
 }
 
 double seconds(const FitsRecord& record) {

@@ -186,6 +186,29 @@ TEST(ReachCover, ASurfaceThatEnclosesNothingIsCoveredToo) {
   EXPECT_LE(on_membrane, 12u);
 }
 
+/// The membrane has hundreds of the places at which gaps are measured, and is the first or the last of them.
+TEST(BallsByDistance, ASurfaceThatEnclosesNothingHoldsUpNoBall) {
+  for (const double x : {3.0, -4.0}) {
+    Mesh mesh = test::make_box({1, 1, 1});
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), {{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 0}});
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    const Shape shape(mesh);
+    BallSpread spread(shape.solid, 2);
+    EXPECT_EQ(spread.of(20).size(), 20u);
+    const std::vector<double> gaps = spread.gaps(20);
+    ASSERT_EQ(gaps.size(), 20u);
+    // Of the box alone: the ball in its middle leaves its corners at (sqrt(3) - 1) / 2.
+    EXPECT_LE(gaps.front(), 0.5);
+    EXPECT_LT(gaps.back(), 0.5 * gaps.front());
+  }
+}
+
+TEST(ReachCover, GivesUpSoonWhereTheNumberIsHopeless) {
+  const Shape cube(test::make_box({1, 1, 1}));
+  EXPECT_THAT(fit_to(cube, by_reach(0.02, 5)).error().message, HasSubstr("even 40 balls leave a part"));
+}
+
 TEST(ReachCover, NeedsFewBalls) {
   const double thickness = 0.02, reach = 0.08;
   const Shape plate(test::make_box({1, 0.6, thickness}));

@@ -25,7 +25,7 @@ constexpr double kProbesCount = 8;
 /// Number of elements of the boundary: enough that an element reaches only negligibly out of a ball that holds its
 /// middle.
 std::size_t elements_for(std::size_t balls) {
-  if (balls <= 16) return 3'000;
+  if (balls <= 16) return 6'000;
   return balls <= kFew ? 10'000 : std::min<std::size_t>(6'000 + 4 * balls, 60'000);
 }
 

@@ -45,7 +45,7 @@ Result<std::vector<Ball>> fewest_within(const Solid& solid, double distance, con
                                         const SphereFitOptions& options, Reports& reports) {
   const bool for_cover = options.contract == SphereContract::kCover;
   Result<std::vector<Ball>> found =
-      spread_within(solid, distance, for_cover, kMostBalls, reports.threads(options.threads), [&](double done) {
+      spread_within(solid, distance, for_cover, options.count, reports.threads(options.threads), [&](double done) {
         if (!reports(done)) throw Stopped();
       });
   if (!found) {

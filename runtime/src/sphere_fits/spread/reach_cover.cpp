@@ -6,6 +6,7 @@
 
 #include "base/format_text.h"
 #include "base/point_ops.h"
+#include "medial_vk/sphere_fits.h"
 #include "sphere_fits/quality/envelope.h"
 #include "sphere_fits/quality/nearest_ball_tree.h"
 #include "sphere_fits/quality/sphere_certificate.h"
@@ -21,6 +22,8 @@ constexpr std::size_t kLeastPlaces = 8192, kMostPlaces = 1 << 18;
 constexpr int kRounds = 16;
 constexpr int kFillings = 64;  // of gaps that proofs find
 constexpr double kTightenings = 512;
+/// Of the balls of a first set, so few times fewer are tried.
+constexpr std::size_t kMostTimesFewer = 4;
 
 double area_of(const Mesh& mesh) {
   double area = 0;
@@ -39,13 +42,14 @@ std::size_t places_for(const Solid& solid, double reach) {
 
 class ReachSearch {
  public:
-  ReachSearch(const Solid& solid, double reach, bool for_cover, std::size_t most, const Threads& threads,
+  ReachSearch(const Solid& solid, double reach, bool for_cover, std::size_t wanted, const Threads& threads,
               const std::function<void(double)>& report)
       : solid_(solid),
         reach_(reach),
         // The balls of the search lie within the boundary by the rounding; grown ones must hold the places for any.
         gap_(reach - 4 * solid.rounding()),
-        most_(most),
+        wanted_(wanted),
+        most_(wanted == 0 ? kMostBalls : std::max(wanted, std::min(kMostBalls, 2 * kMostTimesFewer * wanted))),
         threads_(threads),
         report_(report),
         places_(places_for(solid, reach)),
@@ -53,6 +57,8 @@ class ReachSearch {
 
   Result<std::vector<Ball>> run() {
     if (!fill()) return too_many();
+    if (const std::size_t size = search_.balls().size(); wanted_ > 0 && size / kMostTimesFewer > wanted_)
+      return Error{ErrorCode::kUsage, format_text("no {} balls are found: a first set has {}", wanted_, size)};
     find_fewer();
     if (!fill_between_places()) return too_many();
     for (int filling = 0; filling < kFillings; ++filling) {
@@ -79,7 +85,8 @@ class ReachSearch {
 
   Error too_many() const {
     const std::size_t size = search_.balls().size();
-    return {ErrorCode::kUsage, format_text("even {} balls leave a part at a distance of {:.3g}", size, search_.gap())};
+    return {ErrorCode::kUsage, format_text("even {} {} a part at a distance of {:.3g}", size,
+                                           size == 1 ? "ball leaves" : "balls leave", search_.gap())};
   }
 
   /// Adds balls until no place is too far.
@@ -96,11 +103,11 @@ class ReachSearch {
     return fill();
   }
 
-  /// The balls of fill() are at most so many times the fewest for these places; of fewer, moved, some suffice.
+  /// Of fewer than those of fill(), moved, some suffice: the number is bisected, as if more never failed.
   void find_fewer() {
     const std::vector<Ball> order = search_.balls();
     std::vector<Ball> best = order;
-    std::size_t too_few = order.size() / 4;
+    std::size_t too_few = order.size() / kMostTimesFewer;
     int steps = 0;
     while (best.size() - too_few > std::max<std::size_t>(1, best.size() / 64)) {
       show(0.2 + 0.6 * (1 - 1.0 / ++steps));
@@ -145,7 +152,7 @@ class ReachSearch {
   const Solid& solid_;
   const double reach_;
   double gap_;  // that the search is to reach
-  const std::size_t most_;
+  const std::size_t wanted_, most_;
   const Threads& threads_;
   const std::function<void(double)>& report_;
   const std::size_t places_;
@@ -154,9 +161,9 @@ class ReachSearch {
 
 }  // namespace
 
-Result<std::vector<Ball>> spread_within(const Solid& solid, double reach, bool for_cover, std::size_t most,
+Result<std::vector<Ball>> spread_within(const Solid& solid, double reach, bool for_cover, std::size_t wanted,
                                         const Threads& threads, const std::function<void(double)>& report) {
-  return ReachSearch(solid, reach, for_cover, most, threads, report).run();
+  return ReachSearch(solid, reach, for_cover, wanted, threads, report).run();
 }
 
 std::vector<Ball> grown_balls(const Solid& solid, const std::vector<Ball>& inside, double reach) {

@@ -64,9 +64,10 @@ BallSpread::BallSpread(const Solid& solid, const Threads& threads)
     : search_(solid, places_of(solid, kPlaces), threads) {}
 
 void BallSpread::grow(std::size_t count) {
-  // The search may have gone back to fewer balls.
-  if (gaps_.size() < count && search_.balls().size() < gaps_.size()) go_to(gaps_.size());
+  // The search may have gone back to fewer balls, or been stopped within a step.
+  if (gaps_.size() < count && (is_within_step_ || search_.balls().size() != gaps_.size())) go_to(gaps_.size());
   while (gaps_.size() < count && !ends_) {
+    is_within_step_ = true;
     ends_ = !search_.insert();
     if (ends_) break;
     const std::size_t size = search_.balls().size();
@@ -74,14 +75,15 @@ void BallSpread::grow(std::size_t count) {
       search_.improve(kRoundsOfTop);
       tops_[size] = search_.balls();
     }
-    gaps_.push_back(search_.gap());
+    gaps_.push_back(search_.reachable_gap());
+    is_within_step_ = false;
   }
 }
 
 /// To a number of balls that there have been.
 void BallSpread::go_to(std::size_t count) {
-  const auto top = std::prev(tops_.upper_bound(count));
-  search_.restore(top->second);
+  const auto after = tops_.upper_bound(count);
+  search_.restore(after == tops_.begin() ? std::vector<Ball>() : std::prev(after)->second);
   while (search_.balls().size() < count && search_.insert()) {
   }
 }
@@ -89,7 +91,8 @@ void BallSpread::go_to(std::size_t count) {
 std::vector<Ball> BallSpread::of(std::size_t count) {
   grow(count);
   count = std::min(count, gaps_.size());
-  if (count > 0 && search_.balls().size() != count) go_to(count);
+  if (is_within_step_ || search_.balls().size() != count) go_to(count);
+  is_within_step_ = false;
   return search_.balls();
 }
 

@@ -30,7 +30,8 @@ class BallSpread {
 
   SpreadSearch search_;
   bool ends_ = false;
-  std::vector<double> gaps_;                       // by number of balls
+  bool is_within_step_ = false;  // true after a stop: the balls of the search are none of those that there have been
+  std::vector<double> gaps_;     // by number of balls
   std::map<std::size_t, std::vector<Ball>> tops_;  // the improved sets
 };
 

@@ -35,8 +35,12 @@ SpreadSearch::SpreadSearch(const Solid& solid, std::vector<BoundarySample> place
       threads_(std::move(threads)),
       points_too_(points_too),
       nearest_(places_.size(), {kFar, kFar, 0}),
-      dead_(places_.size()) {
+      dead_(places_.size()),
+      reach_(places_.size(), points_too ? Reach::kSome : Reach::kUnknown) {
   arrange(0, places_.size());
+  // Where the mesh bounds the solid and nothing else, few places can be next to no ball, and are found one by one.
+  if (points_too_ || solid_.has_volume()) return;
+  for_all(places_.size(), 64, threads_, [&](std::size_t place) { is_reachable(place); });
 }
 
 /// Halves the places across the longest side of their box, until few are left.
@@ -74,8 +78,41 @@ void SpreadSearch::add_block(std::size_t first, std::size_t last) {
 
 double SpreadSearch::gap() const {
   double widest = 0;
-  for (const Nearest& nearest : nearest_) widest = std::max(widest, nearest.distance);
+  for (std::size_t place = 0; place < places_.size(); ++place) {
+    if (reach_[place] != Reach::kNone) widest = std::max(widest, nearest_[place].distance);
+  }
   return widest;
+}
+
+double SpreadSearch::reachable_gap() {
+  for (;;) {
+    const double widest = gap();
+    bool is_reached = true;
+    for (std::size_t place = 0; place < places_.size(); ++place) {
+      if (reach_[place] != Reach::kNone && nearest_[place].distance == widest) is_reached &= is_reachable(place);
+    }
+    if (is_reached || widest == 0) return widest;
+  }
+}
+
+/// A property of the place, whatever the present balls are, so that a search that is repeated finds the same.
+bool SpreadSearch::is_reachable(std::size_t place) {
+  if (reach_[place] == Reach::kUnknown)
+    reach_[place] = balls_at(places_[place], kFar).empty() ? Reach::kNone : Reach::kSome;
+  return reach_[place] == Reach::kSome;
+}
+
+/// Of those at which a ball may still come; the number of places if there is none.
+std::size_t SpreadSearch::farthest_place() {
+  for (;;) {
+    std::size_t farthest = places_.size();
+    for (std::size_t place = 0; place < places_.size(); ++place) {
+      if (dead_[place] != 0 || reach_[place] == Reach::kNone || !(nearest_[place].distance > 0)) continue;
+      if (farthest == places_.size() || nearest_[place].distance > nearest_[farthest].distance) farthest = place;
+    }
+    if (farthest == places_.size() || is_reachable(farthest)) return farthest;
+    threads_.check();
+  }
 }
 
 /// The two balls nearest to any of the places are among those that are no farther from the middle than the second one
@@ -121,6 +158,7 @@ void SpreadSearch::add_place(const BoundarySample& place) {
   places_.push_back(place);
   nearest_.push_back({kFar, kFar, 0});
   dead_.push_back(0);
+  reach_.push_back(points_too_ ? Reach::kSome : Reach::kUnknown);
   add_block(places_.size() - 1, places_.size());
   assign(blocks_.back());
 }
@@ -196,15 +234,8 @@ double SpreadSearch::saving(const Ball& ball) const {
 }
 
 bool SpreadSearch::insert() {
-  constexpr int kTries = 64;
-  for (int tries = 0; tries < kTries; ++tries) {
+  for (std::size_t farthest = farthest_place(); farthest < places_.size(); farthest = farthest_place()) {
     threads_.check();
-    std::size_t farthest = places_.size();
-    for (std::size_t place = 0; place < places_.size(); ++place) {
-      if (dead_[place] != 0 || !(nearest_[place].distance > 0)) continue;
-      if (farthest == places_.size() || nearest_[place].distance > nearest_[farthest].distance) farthest = place;
-    }
-    if (farthest == places_.size()) return false;
     std::optional<Ball> best;
     double most = 0;
     for (const Ball& ball : balls_at(places_[farthest], nearest_[farthest].distance)) {
@@ -254,10 +285,12 @@ Ball SpreadSearch::shifted(const Ball& ball, const std::vector<std::uint32_t>& o
   return ball;
 }
 
-/// Every ball by the places that are nearest to it: the distances of these do not grow, and those of others only fall.
+/// Every ball by the places that are nearest to it: their greatest distance does not grow.
 bool SpreadSearch::shift_all() {
   std::vector<std::vector<std::uint32_t>> own(balls_.size());
-  for (std::uint32_t place = 0; place < places_.size(); ++place) own[nearest_[place].ball].push_back(place);
+  for (std::uint32_t place = 0; place < places_.size(); ++place) {
+    if (reach_[place] != Reach::kNone) own[nearest_[place].ball].push_back(place);
+  }
   std::vector<std::uint8_t> moved(balls_.size());
   std::vector<Ball> next = balls_;
   for_all(balls_.size(), 1, threads_, [&](std::size_t i) {
@@ -271,8 +304,11 @@ bool SpreadSearch::shift_all() {
 }
 
 std::size_t SpreadSearch::count_farther(double distance) const {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(nearest_, [&](const Nearest& nearest) { return nearest.distance >= distance; }));
+  std::size_t count = 0;
+  for (std::size_t place = 0; place < places_.size(); ++place) {
+    count += reach_[place] != Reach::kNone && nearest_[place].distance >= distance;
+  }
+  return count;
 }
 
 /// A ball without which no place is as far as the farthest now comes where the gap is widest, if fewer places are then
@@ -280,7 +316,10 @@ std::size_t SpreadSearch::count_farther(double distance) const {
 bool SpreadSearch::exchange() {
   const double far = (1 - kLeastFall) * gap();
   std::vector<double> without(balls_.size(), 0);
-  for (const Nearest& nearest : nearest_) without[nearest.ball] = std::max(without[nearest.ball], nearest.next);
+  for (std::size_t place = 0; place < places_.size(); ++place) {
+    const Nearest& nearest = nearest_[place];
+    if (reach_[place] != Reach::kNone) without[nearest.ball] = std::max(without[nearest.ball], nearest.next);
+  }
   const auto least = std::ranges::min_element(without);
   if (!(*least < far)) return false;
   const std::size_t farther = count_farther(far);
@@ -297,6 +336,7 @@ bool SpreadSearch::exchange() {
 void SpreadSearch::improve(int rounds) {
   constexpr int kPatience = 3;
   constexpr double kEnough = 5e-3;  // a smaller fall of the gap is none
+  constexpr std::size_t kMany = 1024, kExchangesOfMany = 64, kExchangesOfBall = 64;
   if (balls_.empty()) return;
   std::vector<Ball> best = balls_;
   double least = gap(), at_rest = least;
@@ -304,7 +344,9 @@ void SpreadSearch::improve(int rounds) {
   for (int round = 0; round < rounds && idle < kPatience; ++round) {
     threads_.check();
     bool has_changed = false;
-    while (balls_.size() > 1 && exchange()) has_changed = true;
+    // Of many balls each exchange takes long, and gains little.
+    const std::size_t most = balls_.size() > kMany ? kExchangesOfMany : balls_.size() * kExchangesOfBall;
+    for (std::size_t k = 0; k < most && balls_.size() > 1 && exchange(); ++k) has_changed = true;
     has_changed = shift_all() || has_changed;
     const double now = gap();
     if (now < least) {

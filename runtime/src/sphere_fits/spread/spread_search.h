@@ -33,8 +33,11 @@ class SpreadSearch {
   void restore(std::vector<Ball> balls);
   void add_place(const BoundarySample& place);
 
-  /// The greatest distance from a place to the balls, 0 in them; infinite without balls.
+  /// The greatest distance from a place to the balls, 0 in them; infinite without balls. Places known to be next to no
+  /// ball do not count.
   double gap() const;
+  /// The same, after all farther places have been tried.
+  double reachable_gap();
   const std::vector<Ball>& balls() const { return balls_; }
 
  private:
@@ -57,6 +60,8 @@ class SpreadSearch {
   std::optional<Ball> ball_through(const Point& p) const;
   std::optional<Ball> ball_near(const Point& p) const;
   double saving(const Ball& ball) const;
+  bool is_reachable(std::size_t place);
+  std::size_t farthest_place();
   /// Places at that distance or farther.
   std::size_t count_farther(double distance) const;
   bool exchange();
@@ -71,7 +76,10 @@ class SpreadSearch {
   bool points_too_;
   std::vector<Ball> balls_;
   std::vector<Nearest> nearest_;    // by place
-  std::vector<std::uint8_t> dead_;  // by place: no ball nearer to it is found
+  std::vector<std::uint8_t> dead_;  // by place: no ball nearer to it than the present ones is found
+  /// By place: whether a ball is found next to it, as none is at a surface that encloses nothing.
+  enum class Reach : std::uint8_t { kUnknown, kSome, kNone };
+  std::vector<Reach> reach_;
 };
 
 /// Places for balls by distance: points of the boundary in proportion to its area, and its corners.
