@@ -44,10 +44,10 @@ class Reports {
 Result<std::vector<Ball>> fewest_within(const Solid& solid, double distance, const char* goal,
                                         const SphereFitOptions& options, Reports& reports) {
   const bool for_cover = options.contract == SphereContract::kCover;
-  Result<std::vector<Ball>> found =
-      spread_within(solid, distance, for_cover, options.count, reports.threads(options.threads), [&](double done) {
-        if (!reports(done)) throw Stopped();
-      });
+  Result<std::vector<Ball>> found = spread_within(solid, distance, for_cover, options.count, kMostBalls,
+                                                  reports.threads(options.threads), [&](double done) {
+                                                    if (!reports(done)) throw Stopped();
+                                                  });
   if (!found) {
     Error error = found.error();
     if (error.code == ErrorCode::kUsage) error.message += format_text("; raise {}", goal);

@@ -102,9 +102,8 @@ SphereProgress progress_of_fit(const SphereFitOptions& options, const StageProgr
     std::mutex mutex;
     double greatest = 0;
   };
-  const bool has_two_stages =
-      options.contract == SphereContract::kCover && options.method == SphereMethod::kBest && !(options.error > 0) &&
-      !(options.max_reach > 0);
+  const bool has_two_stages = options.contract == SphereContract::kCover && options.method == SphereMethod::kBest &&
+                              !(options.error > 0) && !(options.max_reach > 0);
   return [&progress, &stop, has_two_stages, state = std::make_shared<State>()](const char* stage, double done) {
     constexpr double kOfFirst = 0.2;  // of the time
     const std::lock_guard lock(state->mutex);

@@ -6,7 +6,6 @@
 
 #include "base/format_text.h"
 #include "base/point_ops.h"
-#include "medial_vk/sphere_fits.h"
 #include "sphere_fits/quality/envelope.h"
 #include "sphere_fits/quality/nearest_ball_tree.h"
 #include "sphere_fits/quality/sphere_certificate.h"
@@ -42,14 +41,14 @@ std::size_t places_for(const Solid& solid, double reach) {
 
 class ReachSearch {
  public:
-  ReachSearch(const Solid& solid, double reach, bool for_cover, std::size_t wanted, const Threads& threads,
-              const std::function<void(double)>& report)
+  ReachSearch(const Solid& solid, double reach, bool for_cover, std::size_t wanted, std::size_t most,
+              const Threads& threads, const std::function<void(double)>& report)
       : solid_(solid),
         reach_(reach),
         // The balls of the search lie within the boundary by the rounding; grown ones must hold the places for any.
         gap_(reach - 4 * solid.rounding()),
         wanted_(wanted),
-        most_(wanted == 0 ? kMostBalls : std::max(wanted, std::min(kMostBalls, 2 * kMostTimesFewer * wanted))),
+        most_(wanted == 0 ? most : std::max(wanted, std::min(most, 2 * kMostTimesFewer * wanted))),
         threads_(threads),
         report_(report),
         places_(places_for(solid, reach)),
@@ -162,8 +161,9 @@ class ReachSearch {
 }  // namespace
 
 Result<std::vector<Ball>> spread_within(const Solid& solid, double reach, bool for_cover, std::size_t wanted,
-                                        const Threads& threads, const std::function<void(double)>& report) {
-  return ReachSearch(solid, reach, for_cover, wanted, threads, report).run();
+                                        std::size_t most, const Threads& threads,
+                                        const std::function<void(double)>& report) {
+  return ReachSearch(solid, reach, for_cover, wanted, most, threads, report).run();
 }
 
 std::vector<Ball> grown_balls(const Solid& solid, const std::vector<Ball>& inside, double reach) {

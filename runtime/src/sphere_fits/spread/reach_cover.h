@@ -21,7 +21,8 @@ namespace medial_vk {
 /// std::bad_alloc, and Stopped by `threads`. Errors: kUsage (more than kMostBalls balls, or many more than wanted; a
 /// part thinner than rounding), kOutOfMemory, kInterrupted.
 Result<std::vector<Ball>> spread_within(const Solid& solid, double reach, bool for_cover, std::size_t wanted,
-                                        const Threads& threads, const std::function<void(double)>& report = {});
+                                        std::size_t most, const Threads& threads,
+                                        const std::function<void(double)>& report = {});
 
 /// Balls inside with the radius at which they reach out by `reach`: the distance of their centre from the boundary and
 /// that, rounded down.

@@ -151,10 +151,10 @@ double NearBoundary::greatest_radius(const Point& centre) const {
   return radius;
 }
 
-/// An exposed point remains exposed, as balls only shrink, so no point within `most` of it is too deep any more. A point
-/// that still is lies farther from it than kNearly `most`; in the same round, than `most`, since others are passed over.
-/// The point that is exposed for its sake is no nearer than (kNearly - kFarthest) `most`, so the number of exposed
-/// points is finite.
+/// An exposed point remains exposed, as balls only shrink, so no point within `most` of it is too deep any more. A
+/// point that still is lies farther from it than kNearly `most`; in the same round, than `most`, since others are
+/// passed over. The point that is exposed for its sake is no nearer than (kNearly - kFarthest) `most`, so the number of
+/// exposed points is finite.
 std::vector<Ball> NearBoundary::keep(std::span<const Ball> balls, const Threads& threads) {
   std::vector<Ball> kept(balls.begin(), balls.end());
   for_all(kept.size(), 16, threads, [&](std::size_t i) {
