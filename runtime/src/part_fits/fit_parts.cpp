@@ -116,7 +116,7 @@ class Fitting {
       expect(next);
       // The most work first. Equal ones keep their order.
       std::ranges::stable_sort(next, std::greater<>(), [&](std::size_t part) { return balls_to_find(part); });
-      const Status done = work_side_by_side(parts_, next, options_.threads, [&](std::size_t part, unsigned threads) {
+      Status done = work_side_by_side(parts_, next, options_.threads, [&](std::size_t part, unsigned threads) {
         Stopwatch stopwatch;
         Status status = states_[part].is_settled ? fit_part(part, threads) : find_curve(part, threads);
         fits_[part].measurements.seconds += stopwatch.lap();

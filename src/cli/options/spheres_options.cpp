@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -15,8 +14,6 @@
 
 namespace medial_vk::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMostSpheres = 1'000'000;
 
