@@ -206,7 +206,7 @@ TEST(BallsByDistance, ASurfaceThatEnclosesNothingHoldsUpNoBall) {
 
 TEST(ReachCover, GivesUpSoonWhereTheNumberIsHopeless) {
   const Shape cube(test::make_box({1, 1, 1}));
-  EXPECT_THAT(fit_to(cube, by_reach(0.02, 5)).error().message, HasSubstr("even 40 balls leave a part"));
+  EXPECT_THAT(fit_to(cube, by_reach(0.004, 5)).error().message, HasSubstr("even 1024 balls leave a part"));
 }
 
 TEST(ReachCover, NeedsFewBalls) {

@@ -23,6 +23,8 @@ constexpr int kFillings = 64;  // of gaps that proofs find
 constexpr double kTightenings = 512;
 /// Of the balls of a first set, so few times fewer are tried.
 constexpr std::size_t kMostTimesFewer = 4;
+/// Up to so many balls are found soon, even if fewer are wanted, so that their number can be named.
+constexpr std::size_t kSoon = 1024;
 
 double area_of(const Mesh& mesh) {
   double area = 0;
@@ -48,7 +50,7 @@ class ReachSearch {
         // The balls of the search lie within the boundary by the rounding; grown ones must hold the places for any.
         gap_(reach - 4 * solid.rounding()),
         wanted_(wanted),
-        most_(wanted == 0 ? most : std::max(wanted, std::min(most, 2 * kMostTimesFewer * wanted))),
+        most_(wanted == 0 ? most : std::max(wanted, std::min(most, std::max(kSoon, 2 * kMostTimesFewer * wanted)))),
         threads_(threads),
         report_(report),
         places_(places_for(solid, reach)),
@@ -56,7 +58,8 @@ class ReachSearch {
 
   Result<std::vector<Ball>> run() {
     if (!fill()) return too_many();
-    if (const std::size_t size = search_.balls().size(); wanted_ > 0 && size / kMostTimesFewer > wanted_)
+    if (const std::size_t size = search_.balls().size();
+        wanted_ > 0 && size > kSoon && size / kMostTimesFewer > wanted_)
       return Error{ErrorCode::kUsage, format_text("no {} balls are found: a first set has {}", wanted_, size)};
     find_fewer();
     if (!fill_between_places()) return too_many();
