@@ -46,7 +46,7 @@ What they guarantee:
                         solid; both: inside and cover, N of each, chosen for
                         distances, with the mesh in a body file (part.body.npz),
                         for medial-vk distance
-      --by WHAT         of spheres inside: volume, the least uncovered (default);
+      --by WHAT         of spheres inside: volume, least uncovered (default);
                         distance, none of the surface far from all spheres, as
                         for thin links; auto, by distance where N spheres can
                         have no more than half of the volume

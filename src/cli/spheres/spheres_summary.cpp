@@ -83,6 +83,19 @@ std::string gap_text(const FitsRecord& record) {
   return fmt::format("at most {:.4g} from the surface to the spheres ({:.3g} % of the diagonal)", gap, 100 * share);
 }
 
+/// What SphereFitOptions::max_distance bounds: the greatest of all parts, as proved.
+std::string surfaces_text(const FitsRecord& record) {
+  double distance = 0, share = 0;
+  for (const FittedSolid& solid : record.solids) {
+    if (!solid.measures) continue;
+    const double upper = solid.measures->distances.between_surfaces().upper;
+    distance = std::max(distance, upper);
+    share = std::max(share, upper / solid.measures->diagonal);
+  }
+  return fmt::format("within {:.4g} of each other, in either direction ({:.3g} % of the diagonal)", distance,
+                     100 * share);
+}
+
 /// The volume between spheres and solids, over that of the solids; none if unknown.
 std::optional<std::string> difference_text(SphereContract contract, const FitsRecord& record) {
   double whole = 0, difference = 0, variance = 0;
@@ -219,6 +232,7 @@ std::string spheres_summary(const SpheresOptions& options, const FitsRecord& rec
                                  facets, contract_is_exact ? "; volumes are those of the true shapes" : ""));
   }
   text += labelled("gap", gap_text(record));
+  if (options.spheres.max_distance > 0) text += labelled("surfaces", surfaces_text(record));
   text += advice_text(options, record);
   text += labelled("time", duration(seconds(record)));
   return text + written_text(files);

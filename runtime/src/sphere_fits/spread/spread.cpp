@@ -7,8 +7,6 @@
 #include <optional>
 
 #include "base/point_ops.h"
-#include "sphere_fits/steps/ball_steps.h"
-#include "sphere_fits/steps/maximal_ball.h"
 
 namespace medial_vk {
 namespace {
@@ -21,12 +19,6 @@ bool is_top(std::size_t count) {
   std::size_t step = 1;
   while (count >= 8 * step) step *= 2;
   return count % step == 0;
-}
-
-std::optional<Ball> maximal_through(const Solid& solid, const Point& p) {
-  if (!solid.contains(p)) return std::nullopt;
-  const Ball ball = maximal_ball(solid, p);
-  return ball.radius > 0 && stays_inside(solid, ball) ? std::optional(ball) : std::nullopt;
 }
 
 /// The largest ball that is found: at points of the boundary, then by steps of its centre to larger ones.

@@ -25,6 +25,12 @@ double distance_to(const Point& p, const Ball& ball) { return length(p - ball.ce
 
 }  // namespace
 
+std::optional<Ball> maximal_through(const Solid& solid, const Point& p) {
+  if (!solid.contains(p)) return std::nullopt;
+  const Ball ball = maximal_ball(solid, p);
+  return ball.radius > 0 && stays_inside(solid, ball) ? std::optional(ball) : std::nullopt;
+}
+
 std::vector<BoundarySample> places_of(const Solid& solid, std::size_t count) {
   return sample_boundary(solid.mesh().mesh, count);
 }
@@ -177,21 +183,15 @@ void SpreadSearch::take(const Ball& ball) {
   });
 }
 
-std::optional<Ball> SpreadSearch::ball_through(const Point& p) const {
-  if (!solid_.contains(p)) return std::nullopt;
-  const Ball ball = maximal_ball(solid_, p);
-  return ball.radius > 0 && stays_inside(solid_, ball) ? std::optional(ball) : std::nullopt;
-}
-
 /// The maximal ball through the point, or, if that lies outside, through one next to the boundary point nearest to it.
 std::optional<Ball> SpreadSearch::ball_near(const Point& p) const {
-  if (std::optional<Ball> ball = ball_through(p)) return ball;
+  if (std::optional<Ball> ball = maximal_through(solid_, p)) return ball;
   const Point at = solid_.closest(p).point, across = at - p;
   const double away = length(across);
   if (!(away > 0)) return std::nullopt;
   double depth = kDepths.front() * solid_.diagonal();
   while (depth > 4 * solid_.rounding()) {
-    if (std::optional<Ball> ball = ball_through(at + (depth / away) * across)) return ball;
+    if (std::optional<Ball> ball = maximal_through(solid_, at + (depth / away) * across)) return ball;
     depth /= 4;
   }
   return std::nullopt;
@@ -215,7 +215,7 @@ std::vector<Ball> SpreadSearch::balls_at(const BoundarySample& place, double gap
   for (double depth : depths) {
     std::optional<Ball> ball;
     for (int tries = 0; tries < kTries && !ball; ++tries, depth /= 4) {
-      ball = ball_through(place.at + depth * place.inward);
+      ball = maximal_through(solid_, place.at + depth * place.inward);
     }
     offer(ball);
   }

@@ -57,7 +57,6 @@ class SpreadSearch {
   void assign(const Block& block);
   void take(const Ball& ball);
   std::vector<Ball> balls_at(const BoundarySample& place, double gap) const;
-  std::optional<Ball> ball_through(const Point& p) const;
   std::optional<Ball> ball_near(const Point& p) const;
   double saving(const Ball& ball) const;
   bool is_reachable(std::size_t place);
@@ -81,6 +80,9 @@ class SpreadSearch {
   enum class Reach : std::uint8_t { kUnknown, kSome, kNone };
   std::vector<Reach> reach_;
 };
+
+/// A maximal ball that holds the point; none if it is outside, or next to a hole of the boundary.
+std::optional<Ball> maximal_through(const Solid& solid, const Point& p);
 
 /// Places for balls by distance: points of the boundary in proportion to its area, and its corners.
 std::vector<BoundarySample> places_of(const Solid& solid, std::size_t count);
