@@ -32,10 +32,10 @@ enum class HullChoice : std::uint8_t {
 /// All given goals must be met, with as few hulls as the method finds.
 struct HullFitOptions {
   HullChoice choice = HullChoice::kSlabs;
-  std::size_t count = 0;    ///< Greatest number of hulls, at most kMostHulls; 0: as the other goals require.
-  std::size_t numbers = 0;  ///< Greatest sum of numbers_of() the hulls; 0: no such goal.
-  double error = 0;         ///< Greatest uncovered share of the solid's volume, in [0, 1); 0: no such goal.
-  double max_gap = 0;       ///< Greatest distance from the boundary to the hulls, mesh units; 0: no such goal.
+  std::size_t count = 0;       ///< Greatest number of hulls, at most kMostHulls; 0: as the other goals require.
+  std::size_t parameters = 0;  ///< Greatest sum of parameters_of() their kinds; 0: no such goal.
+  double error = 0;            ///< Greatest uncovered share of the solid's volume, in [0, 1); 0: no such goal.
+  double max_gap = 0;          ///< Greatest distance from the boundary to the hulls, mesh units; 0: no such goal.
   /// The greatest difference of the bounds HullFit::covered, as a share of the solid's volume.
   double width = 1e-3;
   std::uint32_t resolution = 0;  ///< Of the extraction of medial points, as in ExtractionOptions; 0: derived.
