@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "ball_hulls/hull_rows.h"
@@ -43,9 +45,19 @@ class RowMesher {
     last_ = std::move(indices);
   }
 
-  Mesh finished() {
+  /// After the last row.
+  void finish() {
     if (!rings_) add_triangle(last_[0][0], last_[1][0], last_[2][0]);
-    return std::move(mesh_);
+  }
+
+  Mesh take() { return std::move(mesh_); }
+
+  /// An upper bound of the depth of the mesh in the hull.
+  double greatest_depth() const {
+    const BallHull hull = shape_.hull();
+    double greatest = 0;
+    for (const Triangle& triangle : mesh_.triangles) greatest = std::max(greatest, depth_of(triangle, hull));
+    return greatest;
   }
 
  private:
@@ -59,6 +71,7 @@ class RowMesher {
       }
       indices.push_back(static_cast<std::uint32_t>(mesh_.vertices.size()));
       mesh_.vertices.push_back(ball.centre + ball.radius * normal);
+      normals_.push_back(normal);
       if (ball.radius == 0) point_ball_[part.ball] = indices.back();
     }
   }
@@ -83,35 +96,45 @@ class RowMesher {
     }
   }
 
+  /// For any unit vector n the points of a triangle are at most as deep as its lowest corner along n is below the plane
+  /// that touches the hull. Two directions are tried: the triangle's normal, which is best for acute triangles, and the
+  /// middle of the two normals at its corners that differ most, which is best for obtuse ones.
+  double depth_of(const Triangle& triangle, const BallHull& hull) const {
+    const Point &a = mesh_.vertices[triangle[0]], &b = mesh_.vertices[triangle[1]], &c = mesh_.vertices[triangle[2]];
+    const auto below = [&](const Point& direction) {
+      const double size = length(direction);
+      if (!(size > 0)) return std::numeric_limits<double>::infinity();
+      const Point n = (1 / size) * direction;
+      // Relative to a corner, so that nothing is lost where the hull is small and far from the origin.
+      double reach = -std::numeric_limits<double>::infinity();
+      for (const Ball& ball : hull.balls()) reach = std::max(reach, dot(n, ball.centre - a) + ball.radius);
+      return reach - std::min({0.0, dot(n, b - a), dot(n, c - a)});
+    };
+    double shorter = 0, widest = -1;
+    Point middle = {0, 0, 0};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Point &first = normals_[triangle[i]], &second = normals_[triangle[(i + 1) % 3]];
+      const Point apart = second - first;
+      if (dot(apart, apart) <= widest) continue;
+      widest = dot(apart, apart);
+      middle = first + second;
+    }
+    return std::min(below(double_area(a, b, c, shorter)), below(middle));
+  }
+
   const HullShape& shape_;
   const bool rings_;
   Mesh mesh_;
+  std::vector<Point> normals_;
   std::array<std::vector<std::uint32_t>, 3> last_;
   std::array<std::optional<std::uint32_t>, 3> point_ball_;
 };
-
-/// An upper bound of the depth of the mesh in the hull: a point of a triangle is at most as deep as the triangle's
-/// plane is below the parallel plane that touches the hull.
-double greatest_depth(const Mesh& mesh, const BallHull& hull) {
-  double greatest = 0;
-  for (const Triangle& triangle : mesh.triangles) {
-    const Point &a = mesh.vertices[triangle[0]], &b = mesh.vertices[triangle[1]], &c = mesh.vertices[triangle[2]];
-    double shorter = 0;
-    const Point area = double_area(a, b, c, shorter);
-    const double size = length(area);
-    if (!(size > 0x1p-30 * shorter)) continue;  // its points are on edges, which are as deep in other triangles
-    const Point normal = (1 / size) * area;
-    greatest = std::max(greatest, support(hull, normal) - std::min({dot(normal, a), dot(normal, b), dot(normal, c)}));
-  }
-  return greatest;
-}
 
 Error too_many_triangles() {
   return {ErrorCode::kUsage, "the tolerance needs more than 2^24 triangles for one hull; use a greater one"};
 }
 
 Result<Mesh> mesh_of_shape(const HullShape& shape, double tolerance) {
-  const BallHull hull = shape.hull();
   // The steps are those of square cells; where cells are not square they need smaller ones.
   double step = 1;
   for (;;) {
@@ -123,9 +146,9 @@ Result<Mesh> mesh_of_shape(const HullShape& shape, double tolerance) {
       rows.fill(k, row);
       mesher.add(row);
     }
-    Mesh mesh = mesher.finished();
-    const double depth = greatest_depth(mesh, hull);
-    if (depth <= tolerance) return mesh;
+    mesher.finish();
+    const double depth = mesher.greatest_depth();
+    if (depth <= tolerance) return mesher.take();
     step *= std::max(0.5, 0.98 * std::sqrt(tolerance / depth));
   }
 }
