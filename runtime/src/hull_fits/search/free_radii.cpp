@@ -8,7 +8,7 @@
 #include "base/point_ops.h"
 #include "bvh/triangle_distance.h"
 #include "hull_fits/search/radius_program.h"
-#include "hull_fits/search/triangle_gap.h"
+#include "ball_hulls/triangle_gap.h"
 
 namespace medial_vk {
 namespace {
