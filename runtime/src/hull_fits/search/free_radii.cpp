@@ -5,10 +5,10 @@
 #include <limits>
 #include <span>
 
+#include "ball_hulls/triangle_gap.h"
 #include "base/point_ops.h"
 #include "bvh/triangle_distance.h"
 #include "hull_fits/search/radius_program.h"
-#include "ball_hulls/triangle_gap.h"
 
 namespace medial_vk {
 namespace {

@@ -115,10 +115,4 @@ void HullSearch::improve() {
   }
 }
 
-std::vector<BallHull> HullSearch::ordered() const {
-  std::vector<BallHull> hulls;
-  for (std::size_t i = 0; i < lines_.size(); ++i) hulls.push_back(lines_.hull(i));
-  return hulls;
-}
-
 }  // namespace medial_vk

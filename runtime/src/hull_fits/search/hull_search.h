@@ -37,8 +37,6 @@ class HullSearch {
   bool grow();
   /// A round over all hulls.
   void improve();
-  /// Hulls such that each adds as much as any later one could, up to the estimate.
-  std::vector<BallHull> ordered() const;
 
  private:
   struct Trial {

@@ -1,0 +1,128 @@
+#include "hull_fits/final_hulls.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "ball_hulls/axis_point.h"
+#include "base/point_ops.h"
+#include "hull_fits/search/free_radii.h"
+#include "sphere_fits/quality/branch_and_bound.h"
+#include "sphere_fits/quality/triangle_part.h"
+
+namespace medial_vk {
+namespace {
+
+/// Of the diagonal: the depth of triangles that the linear program leaves. The rest is below it by far.
+constexpr double kTolerance = 1e-13;
+/// The radii give way once for the lack of planes, and again where the smaller hull has other planes.
+constexpr int kMostShrinks = 4;
+constexpr double kGapTolerance = 1e-3;  // of the diagonal
+
+BallHull shrunk(BallHull hull, double by) {
+  for (std::uint32_t i = 0; i < hull.count; ++i) hull.corners[i].radius -= by;
+  return hull;
+}
+
+bool has_radii(const BallHull& hull) {
+  return std::ranges::all_of(hull.balls(), [](const Ball& ball) { return ball.radius > 0; });
+}
+
+/// The hull with radii for which planes exist; no value: none were found.
+std::optional<BallHull> proved(const Solid& solid, BallHull hull) {
+  for (int shrinks = 0; shrinks < kMostShrinks && has_radii(hull); ++shrinks) {
+    const PlaneProof proof = prove_hull(solid, hull);
+    if (proof.proved()) return hull;
+    if (!std::isfinite(proof.lack)) return std::nullopt;
+    double greatest = 0;
+    for (const Ball& ball : hull.balls()) greatest = std::max(greatest, ball.radius);
+    // The subtraction rounds, too.
+    hull = shrunk(hull, proof.lack * (1 + 0x1p-20) + 0x1p-52 * greatest);
+  }
+  return std::nullopt;
+}
+
+/// Distances to many hulls: by their boxes.
+class NearestHull {
+ public:
+  explicit NearestHull(std::span<const BallHull> hulls) {
+    for (const BallHull& hull : hulls) {
+      queries_.emplace_back(hull);
+      boxes_.push_back(bounds_of(hull));
+    }
+  }
+
+  struct Found {
+    double distance;  // at least 0
+    std::size_t hull;
+  };
+
+  Found nearest(const Point& p) const {
+    Found found = {HUGE_VAL, 0};
+    for (std::size_t i = 0; i < queries_.size(); ++i) {
+      const Point beside = greatest(greatest(boxes_[i].lower - p, p - boxes_[i].upper), Point{});
+      if (dot(beside, beside) >= found.distance * found.distance) continue;
+      const double distance = std::max(0.0, queries_[i].distance(p));
+      if (distance < found.distance) found = {distance, i};
+      if (distance == 0) break;
+    }
+    return found;
+  }
+
+  /// Signed distances are convex: in a triangle they are at most the greatest at the corners.
+  double greatest_at_corners(std::size_t hull, const TrianglePart& part) const {
+    double most = -HUGE_VAL;
+    for (const Point& corner : part.corner) most = std::max(most, queries_[hull].distance(corner));
+    return most;
+  }
+
+ private:
+  std::vector<AxisQuery> queries_;
+  std::vector<HullBounds> boxes_;
+};
+
+}  // namespace
+
+FreedHulls free_hulls(const Solid& solid, std::span<const BallHull> hulls, const Threads& threads) {
+  const FreeRadii radii(solid, 0, kTolerance * solid.diagonal());
+  std::vector<std::optional<BallHull>> freed(hulls.size());
+  for_all(hulls.size(), 1, threads, [&](std::size_t i) {
+    const BallHull& hull = hulls[i];
+    std::array<Point, 3> centres = {};
+    for (std::uint32_t k = 0; k < hull.count; ++k) centres[k] = hull.corners[k].centre;
+    const std::optional<BallHull> tight = radii.fit(centres, hull.count, kind_of(hull) == HullKind::kCapsule);
+    freed[i] = proved(solid, tight ? *tight : shrunk(hull, radii.greatest_depth(hull)));
+  });
+  FreedHulls result;
+  for (std::size_t i = 0; i < hulls.size(); ++i) {
+    if (!freed[i]) continue;
+    for (std::uint32_t k = 0; k < hulls[i].count; ++k) {
+      result.greatest_shrink =
+          std::max(result.greatest_shrink, hulls[i].corners[k].radius - freed[i]->corners[k].radius);
+    }
+    result.hulls.push_back(*freed[i]);
+  }
+  return result;
+}
+
+Bounds measure_hull_gap(const Solid& solid, std::span<const BallHull> hulls, const Threads& threads) {
+  const NearestHull tree(hulls);
+  const Mesh& mesh = solid.mesh().mesh;
+  std::vector<TrianglePart> parts;
+  parts.reserve(mesh.triangles.size());
+  for (const Triangle& triangle : mesh.triangles) {
+    parts.push_back({{mesh.vertices[triangle[0]], mesh.vertices[triangle[1]], mesh.vertices[triangle[2]]}});
+  }
+  const auto evaluate = [&](const TrianglePart& part, double) -> CellBounds {
+    const Point middle = part.middle();
+    const auto [distance, hull] = tree.nearest(middle);
+    return {distance, std::min(distance + part.reach(middle), tree.greatest_at_corners(hull, part))};
+  };
+  const SearchLimits limits = {.tolerance = kGapTolerance * solid.diagonal(), .threads = threads};
+  const Bounds found = bound_supremum(std::move(parts), 0, limits, evaluate, split_part);
+  // Closed forms have errors of some units in the last place of the greatest coordinate.
+  const double slack = 4 * solid.rounding();
+  return {std::max(0.0, found.lower - slack), found.upper + slack};
+}
+
+}  // namespace medial_vk

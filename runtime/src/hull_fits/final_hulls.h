@@ -1,0 +1,30 @@
+// Hulls of a search made free of the boundary to the last bit, and how far the boundary is from them.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "hull_fits/proof/hull_prover.h"
+#include "medial_vk/ball_hull.h"
+#include "medial_vk/sphere_measures.h"
+#include "solid/solid.h"
+#include "sphere_fits/quality/threads.h"
+
+namespace medial_vk {
+
+/// Hulls that are proved to lie inside, and by how much the radii of one had to give way at most, in mesh units.
+struct FreedHulls {
+  std::vector<BallHull> hulls;
+  double greatest_shrink = 0;
+};
+
+/// The same hulls with radii that are smaller by the least that the proof needs: by a linear program for each, whose
+/// radii may also be greater than before, and then all of one by what rounding takes. A hull for which that fails,
+/// beside an open boundary, is left out. Throws Stopped at a stop by `threads`.
+FreedHulls free_hulls(const Solid& solid, std::span<const BallHull> hulls, const Threads& threads);
+
+/// Bounds of the greatest distance from a point of the boundary to the hulls, at least one, in mesh units, 0 in them:
+/// by branch and bound, to a thousandth of the diagonal. Throws Stopped.
+Bounds measure_hull_gap(const Solid& solid, std::span<const BallHull> hulls, const Threads& threads);
+
+}  // namespace medial_vk
