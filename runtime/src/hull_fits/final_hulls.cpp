@@ -6,15 +6,12 @@
 
 #include "ball_hulls/axis_point.h"
 #include "base/point_ops.h"
-#include "hull_fits/search/free_radii.h"
 #include "sphere_fits/quality/branch_and_bound.h"
 #include "sphere_fits/quality/triangle_part.h"
 
 namespace medial_vk {
 namespace {
 
-/// Of the diagonal: the depth of triangles that the linear program leaves. The rest is below it by far.
-constexpr double kTolerance = 1e-13;
 /// The radii give way once for the lack of planes, and again where the smaller hull has other planes.
 constexpr int kMostShrinks = 4;
 constexpr double kGapTolerance = 1e-3;  // of the diagonal
@@ -34,10 +31,9 @@ std::optional<BallHull> proved(const Solid& solid, BallHull hull) {
     const PlaneProof proof = prove_hull(solid, hull);
     if (proof.proved()) return hull;
     if (!std::isfinite(proof.lack)) return std::nullopt;
-    double greatest = 0;
-    for (const Ball& ball : hull.balls()) greatest = std::max(greatest, ball.radius);
-    // The subtraction rounds, too.
-    hull = shrunk(hull, proof.lack * (1 + 0x1p-20) + 0x1p-52 * greatest);
+    // Smaller differences are lost to the rounding of radii, and of the planes across the hull.
+    const HullBounds box = bounds_of(hull);
+    hull = shrunk(hull, std::max(proof.lack * (1 + 0x1p-20), 0x1p-46 * length(box.upper - box.lower)));
   }
   return std::nullopt;
 }
@@ -84,15 +80,8 @@ class NearestHull {
 }  // namespace
 
 FreedHulls free_hulls(const Solid& solid, std::span<const BallHull> hulls, const Threads& threads) {
-  const FreeRadii radii(solid, 0, kTolerance * solid.diagonal());
   std::vector<std::optional<BallHull>> freed(hulls.size());
-  for_all(hulls.size(), 1, threads, [&](std::size_t i) {
-    const BallHull& hull = hulls[i];
-    std::array<Point, 3> centres = {};
-    for (std::uint32_t k = 0; k < hull.count; ++k) centres[k] = hull.corners[k].centre;
-    const std::optional<BallHull> tight = radii.fit(centres, hull.count, kind_of(hull) == HullKind::kCapsule);
-    freed[i] = proved(solid, tight ? *tight : shrunk(hull, radii.greatest_depth(hull)));
-  });
+  for_all(hulls.size(), 1, threads, [&](std::size_t i) { freed[i] = proved(solid, hulls[i]); });
   FreedHulls result;
   for (std::size_t i = 0; i < hulls.size(); ++i) {
     if (!freed[i]) continue;

@@ -18,9 +18,9 @@ struct FreedHulls {
   double greatest_shrink = 0;
 };
 
-/// The same hulls with radii that are smaller by the least that the proof needs: by a linear program for each, whose
-/// radii may also be greater than before, and then all of one by what rounding takes. A hull for which that fails,
-/// beside an open boundary, is left out. Throws Stopped at a stop by `threads`.
+/// The same hulls, with all radii of each smaller by the least for which planes separate it from every triangle: the
+/// depth of triangles that the linear program of the search leaves, and rounding. A hull for which that fails, beside
+/// an open boundary, is left out. Throws Stopped at a stop by `threads`.
 FreedHulls free_hulls(const Solid& solid, std::span<const BallHull> hulls, const Threads& threads);
 
 /// Bounds of the greatest distance from a point of the boundary to the hulls, at least one, in mesh units, 0 in them:

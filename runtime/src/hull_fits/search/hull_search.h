@@ -20,7 +20,7 @@ struct HullSearchEffort {
   std::size_t climb = 16;      ///< Generations of a climb of a new hull.
   std::size_t polish = 6;      ///< Generations of a climb of an old one, in a round.
   std::size_t rounds = 3;      ///< Over all hulls, after the set has grown.
-  std::size_t lines = 40'000;
+  std::size_t lines = 12'000;
 };
 
 /// Hulls are grown one by one: of many at random, the best few are climbed by a (1 + 4) evolution strategy on the
