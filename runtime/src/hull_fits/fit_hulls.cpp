@@ -21,7 +21,8 @@ constexpr std::uint32_t kResolution = 60;
 /// Of a medial surface with fewer points, a finer one is taken.
 constexpr std::size_t kFewPoints = 200;
 constexpr std::uint32_t kFinestResolution = 480;
-/// The least share of the solid's volume that hulls must miss for more to be tried.
+/// Of the bounds of the volume, as shares of the solid's.
+constexpr double kGreatestWidth = 1e-3, kLeastWidth = 1e-5, kWidthOfUncovered = 0.02;
 constexpr std::array kKinds = {HullChoice::kBalls, HullChoice::kCapsules, HullChoice::kCones, HullChoice::kSlabs};
 
 HullShape shape_of(HullChoice choice) {
@@ -57,7 +58,7 @@ Status check_options(const HullFitOptions& options, const Solid& solid) {
   if (options.count > kMostHulls) return usage("`count` is at most 4096");
   if (!(options.error >= 0 && options.error < 1)) return usage("`error` is a share in [0, 1)");
   if (!(options.max_gap >= 0) || !std::isfinite(options.max_gap)) return usage("`max_gap` is a finite length");
-  if (!(options.width > 0 && options.width < 1)) return usage("`width` is a share in (0, 1)");
+  if (!(options.width >= 0 && options.width < 1)) return usage("`width` is a share in [0, 1)");
   if (options.resolution > 4096) return usage("`resolution` is at most 4096");
   if (options.error > 0 && !solid.has_volume())
     return usage("`error` requires a mesh that encloses a volume cleanly; a limit of `count` does not");
@@ -244,14 +245,24 @@ class HullFitter {
     if (solid_.has_volume()) fit.solid_volume = solid_.volume();
     fit.gap = measure_hull_gap(solid_, fit.hulls, threads_);
     tell("measures", 0.5);
-    HullUnionOptions options;
-    options.width = options_.width * (fit.solid_volume ? *fit.solid_volume : volume_of_balls());
-    options.threads = options_.threads;
-    const Result<Bounds> covered = measure_hull_union(fit.hulls, options, stop_);
+    const Result<Bounds> covered = measure_covered(fit);
     if (!covered) return covered.error();
     fit.covered = covered.value();
     tell("measures", 1);
     return fit;
+  }
+
+  /// With a derived width: first with the greatest, which tells how much is uncovered.
+  Result<Bounds> measure_covered(const HullFit& fit) const {
+    const double scale = fit.solid_volume ? *fit.solid_volume : volume_of_balls();
+    HullUnionOptions options;
+    options.width = scale * (options_.width > 0 ? options_.width : kGreatestWidth);
+    options.threads = options_.threads;
+    const Result<Bounds> covered = measure_hull_union(fit.hulls, options, stop_);
+    if (options_.width > 0 || !covered || !fit.solid_volume) return covered;
+    const double uncovered = *fit.solid_volume - covered.value().upper;
+    options.width = std::max(kLeastWidth * scale, kWidthOfUncovered * uncovered);
+    return options.width < kGreatestWidth * scale ? measure_hull_union(fit.hulls, options, stop_) : covered;
   }
 
   /// A scale for meshes that enclose no volume cleanly: that of the largest ball.
