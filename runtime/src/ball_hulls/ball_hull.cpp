@@ -29,7 +29,14 @@ HullKind kind_of(const BallHull& hull) {
   return hull.corners[0].radius == hull.corners[1].radius ? HullKind::kCapsule : HullKind::kCone;
 }
 
-double signed_distance(const BallHull& hull, const Point& p) { return AxisQuery(hull).distance(p); }
+double signed_distance(const BallHull& hull, const Point& p) {
+  if (hull.count == 1) return length(p - hull.corners[0].centre) - hull.corners[0].radius;
+  if (hull.count == 2) return nearest_on_edge(hull, AxisEdge(hull, 0, 1), p).distance;
+  const auto edge_of = [&hull](std::size_t k) {
+    return AxisEdge(hull, static_cast<std::uint8_t>(k), static_cast<std::uint8_t>((k + 1) % 3));
+  };
+  return nearest_of_three(hull, AxisFace(hull), edge_of, p).distance;
+}
 
 double support(const BallHull& hull, const Point& direction) {
   const double size = length(direction);

@@ -52,15 +52,15 @@ StationaryPair stationary_pair(const AxisEdge& edge, const Ball& a, const AxisEd
 }
 
 /// Of two hulls of two balls.
-double distance_of_cones(const AxisQuery& first, const AxisQuery& second) {
-  const AxisEdge &edge = first.edge(0), &other = second.edge(0);
-  const auto& a = first.hull().corners;
-  const auto& b = second.hull().corners;
+double distance_of_cones(const BallHull& first, const BallHull& second) {
+  const AxisEdge edge(first, 0, 1), other(second, 0, 1);
+  const auto& a = first.corners;
+  const auto& b = second.corners;
   const auto ball_to_second = [&](const Ball& ball) {
-    return second.nearest_on_edge(0, ball.centre).distance - ball.radius;
+    return nearest_on_edge(second, other, ball.centre).distance - ball.radius;
   };
   const auto ball_to_first = [&](const Ball& ball) {
-    return first.nearest_on_edge(0, ball.centre).distance - ball.radius;
+    return nearest_on_edge(first, edge, ball.centre).distance - ball.radius;
   };
   if (!edge.is_cone) return ball_to_second(a[a[1].radius > a[0].radius ? 1 : 0]);
   if (!other.is_cone) return ball_to_first(b[b[1].radius > b[0].radius ? 1 : 0]);
@@ -226,10 +226,10 @@ double distance_between(const BallHull& a, const BallHull& b) {
   if (a.count == 1 && b.count == 1) {
     return length(a.corners[0].centre - b.corners[0].centre) - a.corners[0].radius - b.corners[0].radius;
   }
-  if (a.count == 1) return AxisQuery(b).distance(a.corners[0].centre) - a.corners[0].radius;
-  if (b.count == 1) return AxisQuery(a).distance(b.corners[0].centre) - b.corners[0].radius;
+  if (a.count == 1) return signed_distance(b, a.corners[0].centre) - a.corners[0].radius;
+  if (b.count == 1) return signed_distance(a, b.corners[0].centre) - b.corners[0].radius;
+  if (a.count == 2 && b.count == 2) return distance_of_cones(a, b);
   const AxisQuery first(a), second(b);
-  if (a.count == 2 && b.count == 2) return distance_of_cones(first, second);
   return HullPair(first, second).distance();
 }
 

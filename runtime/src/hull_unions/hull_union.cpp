@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <vector>
@@ -24,8 +25,8 @@ namespace {
 
 constexpr std::size_t kMostUnionHulls = 1u << 20;
 constexpr std::size_t kMostUnionCells = 1u << 28;
-/// At each level cells are kept until their gaps add up to this share of what is left of the width.
-constexpr double kKeptShare = 0.25;
+/// Steps of the search for a threshold: a few to its order of magnitude, the others by halving.
+constexpr int kThresholdSteps = 20;
 
 /// A cell of a level, and where the hulls that may meet it are listed.
 struct UnionCell {
@@ -112,9 +113,7 @@ class UnionMeasure {
     });
   }
 
-  /// Adds up the bounds of cells that are kept, and lists the others in divided_: the smallest gaps are kept. Where the
-  /// gaps of a level fall by a factor of four from level to level, those of the cells to be divided fall to what is
-  /// left of the width at the next level if the kept ones add up to (4 rest - all) / 3.
+  /// Adds up the bounds of cells that are kept, and lists the others in divided_.
   void choose_cells() {
     const double volume = cell_volume();
     // Of a cell that rounding alone keeps from being decided; dividing it would not help.
@@ -122,37 +121,54 @@ class UnionMeasure {
     divided_.clear();
     double open = 0;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
-      const double gap = volume * (covered_[i].upper - covered_[i].lower);
-      if (gap <= rounding) {
+      if (gap_of(i) <= rounding) {
         keep(i);
       } else {
         divided_.push_back(i);
-        open += gap;
+        open += gap_of(i);
       }
     }
     const double rest = options_.width - kept_gap_.value();
-    if (open <= rest) {
-      for (const std::size_t i : divided_) keep(i);
-      divided_.clear();
-      return;
-    }
-    const auto gap_of = [&](std::size_t i) { return covered_[i].upper - covered_[i].lower; };
-    std::stable_sort(divided_.begin(), divided_.end(),
-                     [&](std::size_t a, std::size_t b) { return gap_of(a) < gap_of(b); });
-    const double allowed = std::max(kKeptShare * rest, 0.9 * (4 * rest - open) / 3);
-    double sum = 0;
+    const double greatest = open <= rest ? std::numeric_limits<double>::infinity() : greatest_kept_gap(rest);
     std::size_t count = 0;
-    while (count < divided_.size() && sum + volume * gap_of(divided_[count]) <= allowed) {
-      sum += volume * gap_of(divided_[count]);
-      ++count;
+    for (const std::size_t i : divided_) {
+      if (gap_of(i) <= greatest) {
+        keep(i);
+      } else {
+        divided_[count++] = i;
+      }
     }
-    divided_.erase(divided_.begin(), keep_first(count));
-    std::sort(divided_.begin(), divided_.end());
+    divided_.resize(count);
   }
 
-  std::vector<std::size_t>::iterator keep_first(std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) keep(divided_[i]);
-    return divided_.begin() + static_cast<std::ptrdiff_t>(count);
+  double gap_of(std::size_t i) const { return cell_volume() * (covered_[i].upper - covered_[i].lower); }
+
+  /// The greatest gap of a cell that is kept, such that the gaps of the kept cells and what dividing is expected to
+  /// leave of the others add up to `rest`. Where the boundary is smooth, the gap of a cell of side h is of the order
+  /// h^4: of eight parts four have a sixteenth of it each. To divide all cells with more than one gap, and no others,
+  /// then takes the fewest cells.
+  double greatest_kept_gap(double rest) const {
+    std::vector<double> gaps;
+    gaps.reserve(divided_.size());
+    for (const std::size_t i : divided_) gaps.push_back(gap_of(i));
+    const auto left_by = [&](double greatest) {
+      double sum = 0;
+      for (const double gap : gaps) {
+        double left = gap, part = gap;
+        while (part > greatest) {
+          part /= 16;
+          left /= 4;
+        }
+        sum += left;
+      }
+      return sum;
+    };
+    double below = 0, above = *std::max_element(gaps.begin(), gaps.end());
+    for (int step = 0; step < kThresholdSteps; ++step) {
+      const double middle = step < kThresholdSteps / 2 && below == 0 ? above / 256 : (below + above) / 2;
+      (left_by(middle) <= rest ? below : above) = middle;
+    }
+    return below;
   }
 
   void keep(std::size_t i) {
