@@ -128,7 +128,8 @@ class FreeRadii::Walk {
   const NodeSlabs& slabs_;
 };
 
-std::optional<BallHull> FreeRadii::fit(const std::array<Point, 3>& centres, std::uint32_t count, bool equal) const {
+std::optional<BallHull> FreeRadii::fit(const std::array<Point, 3>& centres, std::uint32_t count, bool equal,
+                                       const IsPromising& is_promising) const {
   BallHull hull;
   hull.count = count;
   std::array<double, 3> greatest = {};
@@ -150,6 +151,7 @@ std::optional<BallHull> FreeRadii::fit(const std::array<Point, 3>& centres, std:
   const Walk walk(solid_.bvh(), slabs_);
   for (int walks = 0; walks < kMostWalks; ++walks) {
     for (std::uint32_t i = 0; i < count; ++i) hull.corners[i].radius = program.radii()[equal ? 0 : i];
+    if (walks == 0 && is_promising && !is_promising(hull)) return std::nullopt;
     const AxisQuery query(hull);
     const std::optional<AxisPoint> deepest = walk.deepest(query, tolerance_);
     if (!deepest) return hull;

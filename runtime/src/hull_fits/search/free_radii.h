@@ -3,8 +3,8 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
-#include <vector>
 
 #include "ball_hulls/axis_point.h"
 #include "hull_fits/search/node_slabs.h"
@@ -12,6 +12,8 @@
 #include "solid/solid.h"
 
 namespace medial_vk {
+
+using IsPromising = std::function<bool(const BallHull& hull)>;
 
 /// Makes hulls of centres inside a solid. Several threads may use one object.
 class FreeRadii {
@@ -24,7 +26,10 @@ class FreeRadii {
   /// The hull of the first `count` centres with the greatest radii, by their sum, such that no triangle meets it, or
   /// for two `equal` ones. No value: there are none, or the first centre is outside of the solid. Radii are at most
   /// those of the balls around the centres, so the hull is nearly free where these are small, too.
-  std::optional<BallHull> fit(const std::array<Point, 3>& centres, std::uint32_t count, bool equal) const;
+  /// `is_promising`, if given, is called once with the radii that the distances of a few balls of the axis permit,
+  /// which nearly always hold more than the final ones; no value if it returns false.
+  std::optional<BallHull> fit(const std::array<Point, 3>& centres, std::uint32_t count, bool equal,
+                              const IsPromising& is_promising = {}) const;
   /// By how much the deepest triangle is in the hull; not positive if none is.
   double greatest_depth(const BallHull& hull) const;
 

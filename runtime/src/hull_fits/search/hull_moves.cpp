@@ -68,7 +68,8 @@ bool HullMoves::snap(Point& p) const {
   return true;
 }
 
-std::optional<BallHull> HullMoves::change(const BallHull& hull, double step, SplitMix& random) const {
+std::optional<BallHull> HullMoves::change(const BallHull& hull, double step, SplitMix& random,
+                                          const IsPromising& is_promising) const {
   std::array<Point, 3> centres = {};
   for (std::uint32_t i = 0; i < hull.count; ++i) centres[i] = hull.corners[i].centre;
   const auto pick = [&](std::uint32_t count) {
@@ -97,7 +98,7 @@ std::optional<BallHull> HullMoves::change(const BallHull& hull, double step, Spl
   } else {
     centres[moved] = seeds_.draw(random).centre;
   }
-  return fit(centres);
+  return fit(centres, is_promising);
 }
 
 }  // namespace medial_vk

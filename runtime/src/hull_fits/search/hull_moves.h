@@ -26,12 +26,13 @@ class HullMoves {
 
   /// A hull with a corner where the solid is uncovered. No value: the corners drawn do not see each other.
   std::optional<BallHull> propose(SplitMix& random) const;
-  /// A hull near `hull`, by a share `step` of its size. No value: none there.
-  std::optional<BallHull> change(const BallHull& hull, double step, SplitMix& random) const;
+  /// A hull near `hull`, by a share `step` of its size. No value: none there that is promising (FreeRadii::fit()).
+  std::optional<BallHull> change(const BallHull& hull, double step, SplitMix& random,
+                                 const IsPromising& is_promising) const;
 
  private:
-  std::optional<BallHull> fit(const std::array<Point, 3>& centres) const {
-    return radii_.fit(centres, shape_.corners, shape_.equal);
+  std::optional<BallHull> fit(const std::array<Point, 3>& centres, const IsPromising& is_promising = {}) const {
+    return radii_.fit(centres, shape_.corners, shape_.equal, is_promising);
   }
   Point far_seed(const Ball& from, SplitMix& random) const;
   bool snap(Point& p) const;

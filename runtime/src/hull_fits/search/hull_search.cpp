@@ -55,7 +55,8 @@ void HullSearch::climb(Trial& trial, double& step, std::size_t generations, std:
     pool_.run(kGeneration, 1, [&](std::size_t i) {
       threads_.check();
       SplitMix random(0x9e3779b97f4a7c15ull * (first + i + 1));
-      const std::optional<BallHull> hull = moves_.change(trial.hull, step, random);
+      const auto is_promising = [&](const BallHull& bound) { return lines_.gain(bound, except) > trial.gain; };
+      const std::optional<BallHull> hull = moves_.change(trial.hull, step, random, is_promising);
       if (hull) next[i] = {*hull, lines_.gain(*hull, except)};
     });
     const Trial& best =

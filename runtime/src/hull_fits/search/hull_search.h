@@ -18,7 +18,7 @@ struct HullSearchEffort {
   std::size_t proposals = 64;  ///< For a new hull.
   std::size_t climbed = 3;     ///< Of these, the best ones.
   std::size_t climb = 16;      ///< Generations of a climb of a new hull.
-  std::size_t polish = 6;      ///< Generations of a climb of an old one, in a round.
+  std::size_t polish = 8;      ///< Generations of a climb of an old one, in a round.
   std::size_t rounds = 3;      ///< Over all hulls, after the set has grown.
   std::size_t lines = 12'000;
 };
