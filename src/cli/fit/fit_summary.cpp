@@ -67,7 +67,7 @@ OrderedJson bounds_json(const Bounds& bounds) { return {bounds.lower, bounds.upp
 
 OrderedJson goals_of_fit(const HullFitOptions& options) {
   const auto given = [](auto value) { return value > 0 ? OrderedJson(value) : OrderedJson(nullptr); };
-  return {{"count", given(options.count)},     {"parameters", given(options.numbers)},
+  return {{"count", given(options.count)},     {"parameters", given(options.parameters)},
           {"error", given(options.error)},     {"max_gap", given(options.max_gap)},
           {"width", options.width},            {"resolution", given(options.resolution)}};
 }

@@ -42,7 +42,7 @@ void declare_fit(CLI::App& app, FitCommandOptions& options, GivenToFit& given) {
                           {"mix", HullChoice::kMix}},
                          fit.choice);
   add.whole("--count", 1, kMostHulls, " hulls", fit.count);
-  add.whole("--parameters", 4, kMostNumbers, " numbers", fit.numbers);
+  add.whole("--parameters", 4, kMostNumbers, " numbers", fit.parameters);
   add.real("--error", {0, 1, false}, " of the volume", fit.error);
   add.real("--max-gap", {0, 1e30, false}, " (units of the mesh)", fit.max_gap);
   add.real("--width", {0, 1, false}, " of the volume", fit.width);
@@ -77,7 +77,7 @@ Status check_fit_input(const FitCommandOptions& options) {
 
 Status check_fit_goals(const FitCommandOptions& options) {
   const HullFitOptions& fit = options.hulls;
-  if (fit.count == 0 && fit.numbers == 0 && fit.error == 0 && fit.max_gap == 0) {
+  if (fit.count == 0 && fit.parameters == 0 && fit.error == 0 && fit.max_gap == 0) {
     return usage_error("no goal is given: use --count N, --parameters N, --error E or --max-gap G");
   }
   if (options.quiet && options.verbose) return usage_error("-q and -v cannot be used together");
