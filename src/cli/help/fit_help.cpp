@@ -13,10 +13,10 @@ Usage:
   medial-vk spheres --primitives KIND [options] MESH      the same
 
 Examples:
-  medial-vk fit part.stl --count 32         writes part.hulls.json
-  medial-vk fit part.stl --primitives capsules --count 64 -o part.usda
-  medial-vk fit part.stl --error 0.1 -o part.glb --picture part.png
-  medial-vk fit part.stl --primitives mix --parameters 256 --check
+  medial-vk fit part.stl --count 16         writes part.hulls.json
+  medial-vk fit part.stl --primitives capsules --count 16 -o part.usda
+  medial-vk fit part.stl --error 0.2 -o part.glb --picture part.png
+  medial-vk fit part.stl --primitives mix --parameters 96 --check
 
 What is fitted:
       --primitives KIND balls (4 numbers each), capsules (7), cones: two balls
@@ -54,7 +54,8 @@ Output:
 Other:
       --backend B       what finds medial points: vulkan (default), or cpu: the
                         reference, slower, without Vulkan
-      --device D        index or a part of the name, as --list-devices shows
+      --device D        Vulkan device by index or part of its name (default: the
+                        environment variable MEDIAL_VK_DEVICE, else the best)
       --threads N       CPU threads, 0 for all (default 0)
   -q, --quiet           only errors
   -v, --verbose         also each hull, and the time of each step
