@@ -59,17 +59,17 @@ std::string hull_table(const HullRecord& record) {
     rows.push_back({fmt::format("{}", i + 1), name_of(kind_of(hull)), fmt::format("{:.4g}", volume_of(hull)),
                     fmt::format("{:.4g}", least.radius), fmt::format("{:.4g}", greatest.radius)});
   }
-  return format_table(
-      {{"hull", true}, {"kind"}, {"volume", true}, {"least radius", true}, {"greatest radius", true}}, rows);
+  return format_table({{"hull", true}, {"kind"}, {"volume", true}, {"least radius", true}, {"greatest radius", true}},
+                      rows);
 }
 
 OrderedJson bounds_json(const Bounds& bounds) { return {bounds.lower, bounds.upper}; }
 
 OrderedJson goals_of_fit(const HullFitOptions& options) {
   const auto given = [](auto value) { return value > 0 ? OrderedJson(value) : OrderedJson(nullptr); };
-  return {{"count", given(options.count)},     {"parameters", given(options.parameters)},
-          {"error", given(options.error)},     {"max_gap", given(options.max_gap)},
-          {"width", options.width},            {"resolution", given(options.resolution)}};
+  return {{"count", given(options.count)}, {"parameters", given(options.parameters)},
+          {"error", given(options.error)}, {"max_gap", given(options.max_gap)},
+          {"width", options.width},        {"resolution", given(options.resolution)}};
 }
 
 OrderedJson check_json(const std::optional<CheckReport>& check) {
@@ -91,8 +91,8 @@ std::string fit_summary(const HullRecord& record, std::span<const OutputFile> fi
   std::string text = labelled("hulls", hulls_text(record));
   text += labelled("proved", proof_text(fit));
   if (const std::optional<Bounds> share = uncovered_share(record)) {
-    text += labelled("error", fmt::format("{} % of the volume is left uncovered",
-                                          between(100 * share->lower, 100 * share->upper)));
+    text += labelled(
+        "error", fmt::format("{} % of the volume is left uncovered", between(100 * share->lower, 100 * share->upper)));
   } else {
     text += labelled("volume", fmt::format("{} of the hulls; the mesh encloses none that is certain",
                                            between(fit.covered.lower, fit.covered.upper)));

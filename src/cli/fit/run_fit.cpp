@@ -64,13 +64,11 @@ class FitRun {
     Result<std::vector<ScenePart>> read = read_meshes(options_.input, false, record_.times);
     shared_.progress.clear();
     if (!read) return read.error();
-    Result<PreparedMesh> prepared =
-        prepare_loaded(std::move(read.value().front().mesh), options_.input, shared_.opening,
-                       {.threads = options_.hulls.threads}, record_.times);
+    Result<PreparedMesh> prepared = prepare_loaded(std::move(read.value().front().mesh), options_.input,
+                                                   shared_.opening, {.threads = options_.hulls.threads}, record_.times);
     if (!prepared) return prepared.error();
     record_.mesh = prepared.value().report;
-    Result<IndexedMesh> indexed =
-        IndexedMesh::build(std::move(prepared).value(), {.threads = options_.hulls.threads});
+    Result<IndexedMesh> indexed = IndexedMesh::build(std::move(prepared).value(), {.threads = options_.hulls.threads});
     if (!indexed) return with_hint(indexed.error());
     mesh_ = std::move(indexed).value();
     return {};
@@ -87,11 +85,10 @@ class FitRun {
       shared_.progress.update(stage, done);
       if (interrupted()) stop.request_stop();
     };
-    Result<HullFit> fit =
-        shared_.context
-            ? fit_hulls(*mesh_, options_.hulls, *shared_.context, on_progress, stop.get_token())
-            : fit_hulls(*mesh_, options_.hulls, reference_with_estimate(shared_.progress), on_progress,
-                        stop.get_token());
+    Result<HullFit> fit = shared_.context
+                              ? fit_hulls(*mesh_, options_.hulls, *shared_.context, on_progress, stop.get_token())
+                              : fit_hulls(*mesh_, options_.hulls, reference_with_estimate(shared_.progress),
+                                          on_progress, stop.get_token());
     shared_.progress.clear();
     record_.times.push_back({"hulls", stopwatch.lap()});
     if (!fit) return fit.error().code == ErrorCode::kInterrupted ? stopped() : in_words(fit.error());

@@ -19,8 +19,8 @@ enum class HullFormat : std::uint8_t {
   kObj,   ///< A mesh for each hull.
 };
 
-inline constexpr std::array<HullFormat, 7> kHullFormats = {HullFormat::kJson, HullFormat::kCsv,  HullFormat::kMa,
-                                                           HullFormat::kUsd,  HullFormat::kGlb,  HullFormat::kGltf,
+inline constexpr std::array<HullFormat, 7> kHullFormats = {HullFormat::kJson, HullFormat::kCsv, HullFormat::kMa,
+                                                           HullFormat::kUsd,  HullFormat::kGlb, HullFormat::kGltf,
                                                            HullFormat::kObj};
 
 /// The word of the option, which is also the extension of files.

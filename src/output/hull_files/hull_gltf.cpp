@@ -75,10 +75,11 @@ class HullGltf {
   void add_materials() {
     for (std::size_t i = 1; i < picture::sheet_colours().size(); ++i) {
       const Eigen::Vector3f light = picture::to_light(picture::sheet_colours()[i]);
-      glb_.document["materials"].push_back(
-          {{"name", fmt::format("colour {}", i)},
-           {"pbrMetallicRoughness",
-            {{"baseColorFactor", {light[0], light[1], light[2], 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0.6}}}});
+      glb_.document["materials"].push_back({{"name", fmt::format("colour {}", i)},
+                                            {"pbrMetallicRoughness",
+                                             {{"baseColorFactor", {light[0], light[1], light[2], 1}},
+                                              {"metallicFactor", 0},
+                                              {"roughnessFactor", 0.6}}}});
     }
   }
 
@@ -129,12 +130,11 @@ class HullGltf {
   Status add_capsule_shape(const BallHull& hull, const Point& origin, const std::string& number) {
     const std::optional<PosedCapsule> posed = posed_capsule(hull, origin, Digits::kFloat);
     if (!posed) return too_thin();
-    add_collider({{"name", "collider " + number}, {"translation", posed->middle}, {"rotation", posed->rotation}},
-                 {{"type", "capsule"},
-                  {"capsule",
-                   {{"height", posed->height},
-                    {"radiusBottom", posed->radius_bottom},
-                    {"radiusTop", posed->radius_top}}}});
+    add_collider(
+        {{"name", "collider " + number}, {"translation", posed->middle}, {"rotation", posed->rotation}},
+        {{"type", "capsule"},
+         {"capsule",
+          {{"height", posed->height}, {"radiusBottom", posed->radius_bottom}, {"radiusTop", posed->radius_top}}}});
     return {};
   }
 

@@ -111,8 +111,8 @@ std::string encode_hulls_ma(const HullRecord& record) {
 
 Result<std::string> encode_hulls_obj(const HullRecord& record) {
   const std::vector<BallHull>& hulls = record.fit.hulls;
-  std::string out = fmt::format("# medial-vk {}: {} hulls of balls inside {}\n", version(), hulls.size(),
-                                as_one_line(record.name));
+  std::string out =
+      fmt::format("# medial-vk {}: {} hulls of balls inside {}\n", version(), hulls.size(), as_one_line(record.name));
   const auto write = std::back_inserter(out);
   std::size_t first = 1;
   for (std::size_t i = 0; i < hulls.size(); ++i) {

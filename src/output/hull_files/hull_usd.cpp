@@ -73,8 +73,8 @@ void add_sphere(const Ball& ball, const std::string& name, UsdText& usd) {
 void add_capsule(const PosedCapsule& capsule, const std::string& name, UsdText& usd) {
   const bool is_cone = capsule.radius_bottom != capsule.radius_top;
   usd.begin(is_cone ? "Capsule_1" : "Capsule", name, kCollision);
-  // By the wider reading of the radii, a ball at an end has a radius of at most sqrt(2) of its rim's, around a centre at
-  // most that radius from the rim: 2.5 radii hold both.
+  // By the wider reading of the radii, a ball at an end has a radius of at most sqrt(2) of its rim's, around a centre
+  // at most that radius from the rim: 2.5 radii hold both.
   const double radius = std::max(capsule.radius_bottom, capsule.radius_top);
   const double across = is_cone ? 1.5 * radius : radius, beyond = is_cone ? 2.5 * radius : radius;
   usd.extent({across, capsule.height / 2 + beyond, across});
@@ -111,7 +111,8 @@ Status add_hull_mesh(const BallHull& hull, const std::string& name, UsdText& usd
   }
   usd.extent(half);
   std::vector<std::uint32_t> corners;
-  for (const Triangle& triangle : mesh.value().triangles) corners.insert(corners.end(), triangle.begin(), triangle.end());
+  for (const Triangle& triangle : mesh.value().triangles)
+    corners.insert(corners.end(), triangle.begin(), triangle.end());
   const std::vector<int> counts(mesh.value().triangles.size(), 3);
   usd.line("int[] faceVertexCounts = [{}]", fmt::join(counts, ", "));
   usd.line("int[] faceVertexIndices = [{}]", fmt::join(corners, ", "));
@@ -155,7 +156,8 @@ Result<std::string> encode_hulls_usd(const HullRecord& record) {
     if (!added) return with_hull(added.error(), i);
   }
   return fmt::format(
-      "#usda 1.0\n(\n    defaultPrim = \"{0}\"\n    doc = \"medial-vk {1}: {2} hulls of balls\"\n    metersPerUnit = 1\n"
+      "#usda 1.0\n(\n    defaultPrim = \"{0}\"\n    doc = \"medial-vk {1}: {2} hulls of balls\"\n    metersPerUnit = "
+      "1\n"
       "    upAxis = \"Y\"\n)\n\ndef Xform \"{0}\"\n{{{3}}}\n",
       root, version(), hulls.size(), usd.text());
 }

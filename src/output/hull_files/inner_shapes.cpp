@@ -22,7 +22,8 @@ double greatest_coordinate(const Point& p) { return std::max({std::fabs(p[0]), s
 /// The greatest absolute coordinate of any point of the hull, from an origin.
 double reach_from(const BallHull& hull, const Point& origin) {
   double reach = 0;
-  for (const Ball& ball : hull.balls()) reach = std::max(reach, greatest_coordinate(ball.centre - origin) + ball.radius);
+  for (const Ball& ball : hull.balls())
+    reach = std::max(reach, greatest_coordinate(ball.centre - origin) + ball.radius);
   return reach;
 }
 
@@ -118,8 +119,7 @@ std::optional<PosedCapsule> posed_capsule(const BallHull& hull, const Point& ori
   posed.rotation = {d[2] * scale, 0, -d[0] * scale, (1 + d[1]) * scale};
   for (double& x : posed.rotation) x = in_digits(x, digits);
   for (std::size_t k = 0; k < 3; ++k) {
-    posed.middle[k] =
-        in_digits((bottom.centre[k] - origin[k]) / 2 + (top.centre[k] - origin[k]) / 2, digits);
+    posed.middle[k] = in_digits((bottom.centre[k] - origin[k]) / 2 + (top.centre[k] - origin[k]) / 2, digits);
   }
   posed.height = in_digits(exact_height, digits);
 
@@ -130,14 +130,14 @@ std::optional<PosedCapsule> posed_capsule(const BallHull& hull, const Point& ori
   const Point to_bottom = posed.middle - half - (bottom.centre - origin);
   const Point to_top = posed.middle + half - (top.centre - origin);
   // A program that does not normalise it applies R' = I + q^2 (R - I) instead of R, where q^2 is the squared length. It
-  // moves a point p by |q^2 - 1| |R p - p|, at most twice |q^2 - 1| |p|. Points of the capsule, by either reading of the
-  // radii, are within half the height and 2.5 radii of the middle.
+  // moves a point p by |q^2 - 1| |R p - p|, at most twice |q^2 - 1| |p|. Points of the capsule, by either reading of
+  // the radii, are within half the height and 2.5 radii of the middle.
   const double radius = std::max(bottom.radius, top.radius);
   const double not_normalised = 2 * std::fabs(squared - 1) * (exact_height / 2 + 2.5 * radius);
   const double moved = std::max(length(to_bottom), length(to_top)) + not_normalised;
   // Of radii that are read as those of rims, with the slope tan f of the cone between them, a ball at an end has the
-  // radius r / cos f, with its centre r tan f from the rim: if r is smaller by e, it has room for e (1 - sin f) / cos f.
-  // With tan f < 1 this is more than e / 2.5.
+  // radius r / cos f, with its centre r tan f from the rim: if r is smaller by e, it has room for e (1 - sin f) / cos
+  // f. With tan f < 1 this is more than e / 2.5.
   const double loss = 2.5 * moved + kOfDoubles * (reach_from(hull, origin) + greatest_coordinate(origin));
   posed.radius_bottom = at_most(bottom.radius - loss, digits);
   posed.radius_top = at_most(top.radius - loss, digits);
@@ -146,10 +146,10 @@ std::optional<PosedCapsule> posed_capsule(const BallHull& hull, const Point& ori
 }
 
 // With R > r the radii, L the distance of the centres and s = (R - r) / L, the ball of the hull at t from the centre of
-// the larger one has the radius R - s t. Written are the ball at t = s b with the radius b = R / (1 + s^2), which is that
-// ball, and the smaller one. Read as rims, the slope is (b - r) / (L - s b) = s, since b - r = s L - s^2 b: the balls are
-// at t = 0 with the radius b sqrt(1 + s^2) = R / sqrt(1 + s^2) < R, and at t = L - s r with r sqrt(1 + s^2) <= r (1 + s^2),
-// which is the radius of the hull's ball there. Both readings are hulls of balls of the hull.
+// the larger one has the radius R - s t. Written are the ball at t = s b with the radius b = R / (1 + s^2), which is
+// that ball, and the smaller one. Read as rims, the slope is (b - r) / (L - s b) = s, since b - r = s L - s^2 b: the
+// balls are at t = 0 with the radius b sqrt(1 + s^2) = R / sqrt(1 + s^2) < R, and at t = L - s r with r sqrt(1 + s^2)
+// <= r (1 + s^2), which is the radius of the hull's ball there. Both readings are hulls of balls of the hull.
 std::optional<BallHull> for_both_readings(const BallHull& hull) {
   Ball larger = hull.corners[0], smaller = hull.corners[1];
   if (smaller.radius > larger.radius) std::swap(larger, smaller);

@@ -70,8 +70,8 @@ TEST_F(CheckHulls, AnAxisBetweenTheArmsOfASolidFails) {
 // The cavity is smaller than the way between random balls, whose radii are smaller still.
 TEST_F(CheckHulls, TheEdgesFindWhatRandomBallsMiss) {
   constexpr double kSize = 1e-6;
-  Mesh cavity = test::make_tetrahedron({Point{kSize, 0, 0}, Point{-kSize, kSize, 0}, Point{-kSize, -kSize, 0},
-                                        Point{0, 0, kSize}});
+  Mesh cavity = test::make_tetrahedron(
+      {Point{kSize, 0, 0}, Point{-kSize, kSize, 0}, Point{-kSize, -kSize, 0}, Point{0, 0, kSize}});
   test::translate(cavity, {0.5, 0.5, 0.5 - kSize / 3});
   test::turn_over(cavity);
   Mesh mesh = test::make_box({1, 1, 1});

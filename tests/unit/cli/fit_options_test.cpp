@@ -56,10 +56,10 @@ TEST(FitOptions, GoalsAndTheirRanges) {
 }
 
 TEST(FitOptions, TheExtensionOrTheFormatDecides) {
-  const std::pair<const char*, HullFormat> formats[] = {
-      {"b.json", HullFormat::kJson}, {"b.csv", HullFormat::kCsv}, {"b.MA", HullFormat::kMa},
-      {"b.usda", HullFormat::kUsd},  {"b.glb", HullFormat::kGlb}, {"b.gltf", HullFormat::kGltf},
-      {"b.obj", HullFormat::kObj}};
+  const std::pair<const char*, HullFormat> formats[] = {{"b.json", HullFormat::kJson}, {"b.csv", HullFormat::kCsv},
+                                                        {"b.MA", HullFormat::kMa},     {"b.usda", HullFormat::kUsd},
+                                                        {"b.glb", HullFormat::kGlb},   {"b.gltf", HullFormat::kGltf},
+                                                        {"b.obj", HullFormat::kObj}};
   for (const auto& [file, format] : formats) {
     EXPECT_EQ(parsed_fit({"a.stl", "--count", "9", "-o", file}).format, format);
     EXPECT_EQ(parsed_fit({"a.stl", "--count", "9", "-o", "x.txt", "--format", name_of(format)}).format, format);
@@ -93,9 +93,10 @@ TEST(FitOptions, SpheresWithPrimitivesFitsHulls) {
 
 TEST(FitOptions, HelpNamesEveryOption) {
   EXPECT_TRUE(parsed_fit({"--help"}).help);
-  for (const char* option : {"--primitives", "--count", "--parameters", "--error", "--max-gap", "--width",
-                             "--resolution", "--output", "--format", "--picture", "--view", "--up", "--size",
-                             "--report", "--check", "--backend", "--device", "--threads", "--quiet", "--verbose"}) {
+  for (const char* option :
+       {"--primitives", "--count",   "--parameters", "--error",   "--max-gap", "--width",  "--resolution",
+        "--output",     "--format",  "--picture",    "--view",    "--up",      "--size",   "--report",
+        "--check",      "--backend", "--device",     "--threads", "--quiet",   "--verbose"}) {
     EXPECT_THAT(fit_help_text(), HasSubstr(option));
   }
 }

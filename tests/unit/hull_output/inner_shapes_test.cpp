@@ -103,8 +103,8 @@ TEST_P(InnerShapes, CapsulesLieInTheirHulls) {
       ASSERT_LE(farthest_of_end(hull, middle, q, -half, posed->radius_bottom, random), 0);
     }
     // Nothing is given up but what the digits lose.
-    const double lost = std::max(hull.corners[0].radius, hull.corners[1].radius) -
-                        std::max(posed->radius_bottom, posed->radius_top);
+    const double lost =
+        std::max(hull.corners[0].radius, hull.corners[1].radius) - std::max(posed->radius_bottom, posed->radius_top);
     ASSERT_LT(lost, given_up());
   }
 }
