@@ -1,5 +1,6 @@
-// Tests that convex hulls of balls lie inside a solid, from the numbers as written and by simple methods: balls of random
-// weights, and the least distance along edges. There are no separating planes, which the proof of the product uses.
+// Tests that convex hulls of balls lie inside a solid, from the numbers as written and by simple methods: balls of
+// random weights, and the least distance along edges. There are no separating planes, which the proof of the product
+// uses.
 #pragma once
 
 #include <functional>
@@ -11,7 +12,8 @@
 
 namespace medial_vk::reference {
 
-/// The hull of one to three balls is the union of the balls B(c, r) with c and r linear over the simplex of the centres.
+/// The hull of one to three balls is the union of the balls B(c, r) with c and r linear over the simplex of the
+/// centres.
 struct Hull {
   std::vector<UnionBall> balls;
 };

@@ -75,7 +75,7 @@ class FitRun {
   }
 
   Status fit() {
-    const Status opened = shared_.opening.take(shared_.context, shared_.device, record_.times);
+    Status opened = shared_.opening.take(shared_.context, shared_.device, record_.times);
     record_.device = shared_.device;
     if (!opened) return opened;
     if (!options_.quiet) print_message(fit_opening(record_));
