@@ -35,7 +35,7 @@ if(TARGET medial-vk)
   install(TARGETS medial-vk RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   install(TARGETS medial-vk-read-scene RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/medial-vk)
   install(FILES ${PROJECT_SOURCE_DIR}/docs/medial-vk.1 ${PROJECT_SOURCE_DIR}/docs/medial-vk-batch.1
-    ${PROJECT_SOURCE_DIR}/docs/medial-vk-spheres.1
+    ${PROJECT_SOURCE_DIR}/docs/medial-vk-spheres.1 ${PROJECT_SOURCE_DIR}/docs/medial-vk-fit.1
     ${PROJECT_SOURCE_DIR}/docs/medial-vk-clearance.1 ${PROJECT_SOURCE_DIR}/docs/medial-vk-curvature.1
     ${PROJECT_SOURCE_DIR}/docs/medial-vk-distance.1
     ${PROJECT_SOURCE_DIR}/docs/medial-vk-doctor.1 ${PROJECT_SOURCE_DIR}/docs/medial-vk-follow.1

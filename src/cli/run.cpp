@@ -11,8 +11,10 @@
 #include "cli/distance/run_distance.h"
 #include "cli/doctor/run_doctor.h"
 #include "cli/extract/run_extract.h"
+#include "cli/fit/run_fit.h"
 #include "cli/follow/run_follow.h"
 #include "cli/help/help_texts.h"
+#include "cli/options/fit/fit_options.h"
 #include "cli/options/options.h"
 #include "cli/plane/run_plane.h"
 #include "cli/spheres/run_spheres.h"
@@ -58,7 +60,8 @@ Status run_action(const Options& options) {
 Command command_of(const std::vector<std::string>& arguments) {
   if (arguments.empty()) return Command::kExtract;
   if (arguments[0] == "batch") return Command::kBatch;
-  if (arguments[0] == "spheres") return Command::kSpheres;
+  if (arguments[0] == "spheres") return has_primitives(arguments) ? Command::kFit : Command::kSpheres;
+  if (arguments[0] == "fit") return Command::kFit;
   if (arguments[0] == "distance") return Command::kDistance;
   if (arguments[0] == "clearance") return Command::kClearance;
   if (arguments[0] == "follow") return Command::kFollow;
@@ -71,6 +74,7 @@ Command command_of(const std::vector<std::string>& arguments) {
 Status parse_and_run(Command command, const std::vector<std::string>& arguments) {
   if (command == Command::kBatch) return run_batch({arguments.begin() + 1, arguments.end()});
   if (command == Command::kSpheres) return run_spheres({arguments.begin() + 1, arguments.end()});
+  if (command == Command::kFit) return run_fit({arguments.begin() + 1, arguments.end()});
   if (command == Command::kDistance) return run_distance({arguments.begin() + 1, arguments.end()});
   if (command == Command::kClearance) return run_clearance({arguments.begin() + 1, arguments.end()});
   if (command == Command::kFollow) return run_follow({arguments.begin() + 1, arguments.end()});

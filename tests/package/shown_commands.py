@@ -38,6 +38,7 @@ NOT_RUN = {
     r"node tests/page/look.mjs PAGE": "names no file; with files it is run",
     r"medial-vk batch( FOLDER -o OUT)?$": "names the command; a run of it has meshes",
     r"medial-vk spheres( MESH| ROBOT.urdf)?$": "names the command; a run of it has a goal",
+    r"medial-vk fit( MESH)?$": "names the command; a run of it has a goal",
     r"medial-vk distance( A B)?$": "names the command; a run of it has two meshes",
     r"medial-vk clearance( ROBOT.urdf)?$": "names the command; a run of it has joints",
     r"medial-vk clearance robot.urdf --joints joints.csv --balls": "fits covers to all links, which takes minutes",
@@ -79,7 +80,7 @@ def shown(source, programs):
     """All commands, as pairs of document and command."""
     documents = [source / "README.md", *sorted((source / "docs").glob("*.md"))]
     found = [(d.name, command) for d in documents for command in commands_of_markdown(d.read_text())]
-    for words in ([], ["batch"], ["spheres"], ["distance"], ["clearance"], ["follow"], ["curvature"], ["plane"], ["voronoi"], ["doctor"]):
+    for words in ([], ["batch"], ["spheres"], ["fit"], ["distance"], ["clearance"], ["follow"], ["curvature"], ["plane"], ["voronoi"], ["doctor"]):
         text = subprocess.run([programs["medial-vk"], *words, "--help"], check=True, capture_output=True, text=True).stdout
         found += [(" ".join([*words, "--help"]), command) for command in commands_of_help(text)]
     for page in sorted((source / "docs").glob("*.1")):
@@ -122,6 +123,9 @@ def outputs_of(words):
         ending = ".voronoi.json" if arguments[1:2] and arguments[1].endswith(".svg") else ".voronoi.ply"
         return files if is_named else [*files, pathlib.Path(arguments[1]).stem + ending]
     meshes = [a for a in arguments if re.search(r"\.(obj|stl|ply)$", a) and a not in files]
+    if arguments[:1] == ["fit"] or "--primitives" in arguments:
+        is_named = {"-o", "--output", "--help"} & set(arguments)
+        return files if is_named else [*files, *(pathlib.Path(mesh).stem + ".hulls.json" for mesh in meshes)]
     if arguments[:1] == ["spheres"]:
         robots = [a for a in arguments if a.endswith(".urdf") and a not in files]
         if "--frames" in arguments:  # the others are frames

@@ -1,6 +1,6 @@
 # README.md shows the marked part of examples/embed.cpp, word for word, and has its sections in order: sentence, picture,
 # command, output, program, results, limits. It and the manual page name the very options that --help lists; so do the pages of
-# `medial-vk batch`, `medial-vk spheres`, `medial-vk distance`, `medial-vk clearance`, `medial-vk curvature`,
+# `medial-vk batch`, `medial-vk spheres`, `medial-vk fit`, `medial-vk distance`, `medial-vk clearance`, `medial-vk curvature`,
 # `medial-vk plane`, `medial-vk voronoi` and `medial-vk doctor`.
 # Needs: SOURCE_DIR MEDIAL_VK
 cmake_minimum_required(VERSION 3.25)
@@ -31,6 +31,8 @@ file(READ ${SOURCE_DIR}/docs/medial-vk-batch.1 batch_page)
 string(REPLACE "\\-" "-" batch_page "${batch_page}")
 file(READ ${SOURCE_DIR}/docs/medial-vk-spheres.1 spheres_page)
 string(REPLACE "\\-" "-" spheres_page "${spheres_page}")
+file(READ ${SOURCE_DIR}/docs/medial-vk-fit.1 fit_page)
+string(REPLACE "\\-" "-" fit_page "${fit_page}")
 file(READ ${SOURCE_DIR}/docs/medial-vk-distance.1 distance_page)
 string(REPLACE "\\-" "-" distance_page "${distance_page}")
 file(READ ${SOURCE_DIR}/docs/medial-vk-clearance.1 clearance_page)
@@ -68,6 +70,7 @@ compare_options(README.md "${table}")
 compare_options(docs/medial-vk.1 "${page}")
 compare_options(docs/medial-vk-batch.1 "${batch_page}" batch)
 compare_options(docs/medial-vk-spheres.1 "${spheres_page}" spheres)
+compare_options(docs/medial-vk-fit.1 "${fit_page}" fit)
 compare_options(docs/medial-vk-distance.1 "${distance_page}" distance)
 compare_options(docs/medial-vk-clearance.1 "${clearance_page}" clearance)
 compare_options(docs/medial-vk-follow.1 "${follow_page}" follow)

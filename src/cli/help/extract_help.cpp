@@ -15,6 +15,8 @@ Usage:
                                process: medial-vk batch --help
   medial-vk spheres [options] MESH|ROBOT.urdf   N balls in the place of a solid
                                or of a robot's links: medial-vk spheres --help
+  medial-vk fit [options] MESH   capsules, cone-spheres or slabs in the place of
+                               a solid: medial-vk fit --help
   medial-vk distance [options] A B   the distance between two solids, in many
                                poses: medial-vk distance --help
   medial-vk clearance [options] ROBOT.urdf   the same among links of a robot:

@@ -11,6 +11,7 @@ std::string help_text();
 // The output of `medial-vk COMMAND --help`.
 std::string batch_help_text();
 std::string spheres_help_text();
+std::string fit_help_text();
 std::string distance_help_text();
 std::string clearance_help_text();
 std::string follow_help_text();

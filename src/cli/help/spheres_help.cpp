@@ -12,6 +12,8 @@ Usage:
   medial-vk spheres [options] MESH          OBJ, PLY, STL, OFF, glTF, GLB, 3MF,
                                             FBX, COLLADA ...; "-": standard input
   medial-vk spheres [options] ROBOT.urdf    with the meshes that it names
+  medial-vk spheres --primitives KIND ...   capsules, cones or slabs: see
+                                            medial-vk fit --help
 
 Examples:
   medial-vk spheres part.stl --count 64     writes part.spheres.csv

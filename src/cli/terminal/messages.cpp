@@ -27,6 +27,11 @@ constexpr ParameterWords of_follow(std::string_view parameter, std::string_view 
   return {parameter, {}, {}, {}, {}, {}, {}, words};
 }
 
+/// Of fit_hulls(), which only one command calls.
+constexpr ParameterWords of_fit(std::string_view parameter, std::string_view words) {
+  return {parameter, {}, {}, {}, {}, {}, {}, {}, {}, {}, words};
+}
+
 constexpr std::string_view kRobotCount = "--count-per-link or --total";
 constexpr ParameterWords kParameterWords[] = {
     {"aim", {}, "--by", "--by"},
@@ -40,6 +45,7 @@ constexpr ParameterWords kParameterWords[] = {
     {"border", "--sheet-border", {}, {}},
     library_only("capacity"),
     library_only("cells"),
+    of_fit("choice", "--primitives"),
     library_only("clearance"),
     {"contract", {}, "--contract", "--contract"},
     {"count", {}, "--count", kRobotCount, {}, {}, {}, "--count"},
@@ -96,6 +102,7 @@ constexpr ParameterWords kParameterWords[] = {
     library_only("object_angles"),
     library_only("out"),
     library_only("pairs"),
+    of_fit("parameters", "--parameters"),
     library_only("parts"),
     library_only("points"),
     library_only("pose"),
@@ -135,7 +142,7 @@ constexpr ParameterWords kParameterWords[] = {
     library_only("volume_tolerance"),
     library_only("volumes"),
     {"wall_angle", "--wall-angle", {}, {}},
-    {"width", "--sheet-width", {}, {}},
+    {"width", "--sheet-width", {}, {}, {}, {}, {}, {}, {}, {}, "--width"},
 };
 
 std::string_view words_of(const ParameterWords& parameter, Command command) {
@@ -147,6 +154,8 @@ std::string_view words_of(const ParameterWords& parameter, Command command) {
       return parameter.spheres;
     case Command::kRobotSpheres:
       return parameter.robot_spheres;
+    case Command::kFit:
+      return parameter.fit.empty() ? parameter.spheres : parameter.fit;
     case Command::kDistance:
       return parameter.distance;
     case Command::kClearance:
@@ -174,6 +183,8 @@ const char* name_of(Command command) {
     case Command::kSpheres:
     case Command::kRobotSpheres:
       return "medial-vk spheres";
+    case Command::kFit:
+      return "medial-vk fit";
     case Command::kDistance:
       return "medial-vk distance";
     case Command::kClearance:

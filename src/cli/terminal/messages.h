@@ -19,6 +19,7 @@ enum class Command {
   kBatch,         ///< medial-vk batch, whose options are those of medial-vk
   kSpheres,       ///< medial-vk spheres, of a mesh
   kRobotSpheres,  ///< medial-vk spheres, of a robot
+  kFit,           ///< medial-vk fit
   kDistance,      ///< medial-vk distance
   kClearance,     ///< medial-vk clearance
   kFollow,        ///< medial-vk follow
@@ -39,6 +40,7 @@ struct ParameterWords {
   std::string_view follow = {};     ///< Of few.
   std::string_view plane = {};      ///< Of few.
   std::string_view voronoi = {};    ///< Of few.
+  std::string_view fit = {};        ///< Of few; empty: that of spheres.
 };
 
 /// Every parameter that messages of the library name.

@@ -105,16 +105,26 @@ std::size_t GlbContainer::add_colours(std::span<const std::array<std::uint16_t, 
                        {"type", "VEC4"}});
 }
 
-Result<std::string> GlbContainer::finish(const std::string& nodes) {
+std::string GlbContainer::text_of_document(const std::string& nodes, const std::string& uri) {
   if (!buffer_.empty()) {  // glTF has no empty arrays
     document["accessors"] = accessors_;
     document["bufferViews"] = views_;
     document["buffers"] = {{{"byteLength", buffer_.size()}}};
+    if (!uri.empty()) document["buffers"][0]["uri"] = uri;
   }
   // Names may come from files, in any bytes.
   std::string json = document.dump(-1, ' ', false, GltfJson::error_handler_t::replace);
   json.pop_back();
-  json += fmt::format(",\"nodes\":{}}}", nodes);
+  return json + fmt::format(",\"nodes\":{}}}", nodes);
+}
+
+std::string GlbContainer::finish_as_text(const std::string& nodes,
+                                         const std::function<std::string(std::string_view)>& base64) {
+  return text_of_document(nodes, "data:application/octet-stream;base64," + base64(buffer_)) + "\n";
+}
+
+Result<std::string> GlbContainer::finish(const std::string& nodes) {
+  std::string json = text_of_document(nodes, {});
   pad(json, ' ');
   const std::uint64_t length =
       12 + 8 + json.size() + (buffer_.empty() ? 0 : 8 + static_cast<std::uint64_t>(buffer_.size()));

@@ -3,9 +3,11 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "medial_vk/result.h"
 
@@ -38,7 +40,12 @@ class GlbContainer {
   /// format.
   Result<std::string> finish(const std::string& nodes);
 
+  /// The same as a .gltf: the document alone, with the bytes of the buffer in it. `base64` encodes them.
+  std::string finish_as_text(const std::string& nodes, const std::function<std::string(std::string_view)>& base64);
+
  private:
+  /// The text of the document; `uri` is where the buffer is, or empty.
+  std::string text_of_document(const std::string& nodes, const std::string& uri);
   std::size_t add_accessor(std::size_t begin, GltfTarget target, GltfJson accessor);
 
   GltfJson accessors_ = GltfJson::array();

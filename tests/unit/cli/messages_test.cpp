@@ -130,6 +130,7 @@ TEST(Messages, AUsageErrorPointsAtTheHelpOfItsCommand) {
   EXPECT_EQ(printed(Command::kClearance), "medial-vk: no\nTry medial-vk clearance --help.\n");
   EXPECT_EQ(printed(Command::kCurvature), "medial-vk: no\nTry medial-vk curvature --help.\n");
   EXPECT_EQ(printed(Command::kPlane), "medial-vk: no\nTry medial-vk plane --help.\n");
+  EXPECT_EQ(printed(Command::kFit), "medial-vk: no\nTry medial-vk fit --help.\n");
   EXPECT_EQ(printed(Command::kVoronoi), "medial-vk: no\nTry medial-vk voronoi --help.\n");
   EXPECT_EQ(printed(Command::kDoctor), "medial-vk: no\nTry medial-vk doctor --help.\n");
 }

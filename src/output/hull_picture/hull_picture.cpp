@@ -1,0 +1,65 @@
+#include "output/hull_picture/hull_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "medial_vk/mesh.h"
+#include "output/colours/colour_map.h"
+#include "output/picture/panels/panel.h"
+#include "output/picture/panels/scene.h"
+
+namespace medial_vk {
+namespace {
+
+constexpr double kDrawnShare = 0.004;  // of the greatest radius: how far drawn triangles are from their hull
+
+std::string title_of(const HullRecord& record) {
+  const char* one[] = {"ball", "capsule", "cone-sphere", "slab"};
+  const char* many[] = {"balls", "capsules", "cone-spheres", "slabs"};
+  const std::array<std::size_t, 4> kinds = kinds_of(record.fit.hulls);
+  std::string title;
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    if (kinds[k] == 0) continue;
+    title += fmt::format("{}{} {}", title.empty() ? "" : ", ", kinds[k], kinds[k] == 1 ? one[k] : many[k]);
+  }
+  if (const std::optional<Bounds> share = uncovered_share(record)) {
+    title += fmt::format("; {:.3g} % uncovered", 100 * share->upper);
+  }
+  return title;
+}
+
+}  // namespace
+
+Result<Picture> draw_hulls(const HullRecord& record, const MeshView& solid, const PictureOptions& options) {
+  Mesh shape;
+  shape.vertices.assign(solid.vertices.begin(), solid.vertices.end());
+  shape.triangles.assign(solid.triangles.begin(), solid.triangles.end());
+  PictureOptions how = options;
+  how.show = PictureShow::kPoints;
+  how.colour = PictureColour::kSheet;
+  picture::Scene scene = picture::make_scene(shape, {}, 0, how);
+  picture::Surface& surface = scene.painted.surface;
+  const std::vector<BallHull>& hulls = record.fit.hulls;
+  for (std::size_t i = 0; i < hulls.size(); ++i) {
+    double greatest = 0;
+    for (const Ball& ball : hulls[i].balls()) greatest = std::max(greatest, ball.radius);
+    if (!(greatest > 0)) continue;  // nothing to be seen
+    const Result<Mesh> mesh = mesh_of(hulls[i], kDrawnShare * greatest);
+    if (!mesh) return mesh.error();
+    const picture::Surface part = picture::make_surface(shape, mesh.value());
+    surface.positions.insert(surface.positions.end(), part.positions.begin(), part.positions.end());
+    surface.normals.insert(surface.normals.end(), part.normals.begin(), part.normals.end());
+    const std::size_t colour = picture::sheet_colour_index(static_cast<std::int32_t>(i));
+    scene.painted.light.resize(surface.positions.size(), picture::to_light(picture::sheet_colours()[colour]));
+  }
+  scene.legend = {};
+  scene.legend.title = title_of(record);
+  Picture picture = picture::blank(how);
+  const picture::Panel panel = {.width = picture.width, .in_glass = true, .painted = true};
+  picture::draw_panel(scene, panel, how.view, picture);
+  picture::draw_legend(scene, picture);
+  return picture;
+}
+
+}  // namespace medial_vk
