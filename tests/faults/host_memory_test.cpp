@@ -16,11 +16,13 @@
 #include "failing_new.h"
 #include "fault_test.h"
 #include "lent_device.h"
+#include "medial_vk/ball_hull.h"
 #include "medial_vk/ball_union.h"
 #include "medial_vk/cover_follower.h"
 #include "medial_vk/dynamic_union.h"
 #include "medial_vk/foam.h"
 #include "medial_vk/follower.h"
+#include "medial_vk/hull_union.h"
 #include "medial_vk/shrinking_union.h"
 #include "support/solids/ball_families.h"
 #include "threads/worker_pool.h"
@@ -165,6 +167,33 @@ TEST_F(HostMemory, RunsOutInAUnionOfBalls) {
       const auto betti = in_runtime([&] { return betti_numbers(measured.value().complex); });
       if (!betti.ok()) return betti.error();
       return bytes_of(measured.value(), betti.value());
+    });
+  }
+}
+
+// On one thread, as above.
+TEST_F(HostMemory, RunsOutInAUnionOfHulls) {
+  const std::vector<BallHull> hulls = {hull_of({{0, 0, 0}, 0.2}, {{1, 0, 0}, 0.1}, {{0, 1, 0}, 0.15}),
+                                       hull_of({{0, 0, 0.2}, 0.2}, {{1, 1, 1}, 0.1}), hull_of({{1, 1, 1}, 0.3})};
+  fail_every_allocation("a union of hulls", [&]() -> Answer {
+    const auto bounds = in_runtime([&] { return measure_hull_union(hulls, {.width = 0.05, .threads = 1}); });
+    if (!bounds.ok()) return bounds.error();
+    std::string out;
+    append_bytes(out, bounds.value());
+    return out;
+  });
+}
+
+TEST_F(HostMemory, RunsOutInTheMeshOfAHull) {
+  const BallHull slab = hull_of({{0, 0, 0}, 0.2}, {{1, 0, 0}, 0.1}, {{0, 1, 0}, 0.15});
+  for (const BallHull& hull : {slab, hull_of(slab.corners[0], slab.corners[1])}) {
+    fail_every_allocation("the mesh of a hull", [&]() -> Answer {
+      const auto mesh = in_runtime([&] { return mesh_of(hull, 0.02); });
+      if (!mesh.ok()) return mesh.error();
+      std::string out;
+      for (const Point& vertex : mesh.value().vertices) append_bytes(out, vertex);
+      for (const Triangle& triangle : mesh.value().triangles) append_bytes(out, triangle);
+      return out;
     });
   }
 }

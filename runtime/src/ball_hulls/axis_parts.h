@@ -82,7 +82,7 @@ struct AxisFace {
     if (!(third_across > kAxisRounding * extent)) return;  // on the side, up to rounding
     inverse_across = 1 / third_across;
     across = inverse_across * rest;
-    if (third_across < 0x1p-10 * extent) across = orthogonalized(across, along);
+    if (third_across < 0.25 * extent) across = orthogonalized(across, along);
     normal = cross(along, across);
     const double first = hull.corners[from].radius;
     slope_along = (hull.corners[to].radius - first) * inverse_extent;

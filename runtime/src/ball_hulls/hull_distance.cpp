@@ -34,7 +34,7 @@ StationaryPair stationary_pair(const AxisEdge& edge, const Ball& a, const AxisEd
   const double sine = length(across);
   if (!(sine > kAxisRounding)) return pair;  // parallel: an end of one is as good
   across = (1 / sine) * across;
-  if (sine < 0x1p-10) across = orthogonalized(across, edge.direction);
+  if (sine < 0.25) across = orthogonalized(across, edge.direction);
   const double n_along = edge.slope, n_across = -(other.slope + cosine * edge.slope) / sine;
   const double rest_of_one = (1 - n_along) * (1 + n_along) - n_across * n_across;
   if (!(rest_of_one > 0)) return pair;

@@ -25,6 +25,9 @@ namespace {
 
 constexpr std::size_t kMostUnionHulls = 1u << 20;
 constexpr std::size_t kMostUnionCells = 1u << 28;
+/// The union is refused at once if so many cells are expected. Where few cells are known to be inside or outside, the
+/// expected number is too great.
+constexpr double kMostExpectedCells = 64.0 * kMostUnionCells;
 /// Steps of the search for a threshold: a few to its order of magnitude, the others by halving.
 constexpr int kThresholdSteps = 20;
 
@@ -76,7 +79,7 @@ class UnionMeasure {
       test_level();
       choose_cells();
       if (divided_.empty()) break;
-      if (tested_ + 8 * divided_.size() > kMostUnionCells || level_ == 31) {
+      if (tested_ + 8 * divided_.size() > kMostUnionCells || too_many_expected_ || level_ == 31) {
         return Error{ErrorCode::kUsage,
                      "the width of the volume's bounds needs more than 2^28 cells; use a greater one"};
       }
@@ -147,7 +150,7 @@ class UnionMeasure {
   /// leave of the others add up to `rest`. Where the boundary is smooth, the gap of a cell of side h is of the order
   /// h^4: of eight parts four have a sixteenth of it each. To divide all cells with more than one gap, and no others,
   /// then takes the fewest cells.
-  double greatest_kept_gap(double rest) const {
+  double greatest_kept_gap(double rest) {
     std::vector<double> gaps;
     gaps.reserve(divided_.size());
     for (const std::size_t i : divided_) gaps.push_back(gap_of(i));
@@ -168,6 +171,15 @@ class UnionMeasure {
       const double middle = step < kThresholdSteps / 2 && below == 0 ? above / 256 : (below + above) / 2;
       (left_by(middle) <= rest ? below : above) = middle;
     }
+    double cells = 0;
+    for (const double gap : gaps) {
+      double parts = 8;
+      for (double part = gap; part > below && cells < kMostExpectedCells; part /= 16) {
+        cells += parts;
+        parts *= 4;
+      }
+    }
+    too_many_expected_ = !(cells < kMostExpectedCells);
     return below;
   }
 
@@ -221,6 +233,7 @@ class UnionMeasure {
   double half_ = 0;  // of the side of the level's cells
   unsigned level_ = 0;
   std::size_t tested_ = 0;
+  bool too_many_expected_ = false;
   std::vector<UnionCell> cells_;
   std::vector<std::uint32_t> lists_;
   std::vector<CoveredCell> covered_;
