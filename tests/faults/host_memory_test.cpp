@@ -176,7 +176,7 @@ TEST_F(HostMemory, RunsOutInAUnionOfHulls) {
   const std::vector<BallHull> hulls = {hull_of({{0, 0, 0}, 0.2}, {{1, 0, 0}, 0.1}, {{0, 1, 0}, 0.15}),
                                        hull_of({{0, 0, 0.2}, 0.2}, {{1, 1, 1}, 0.1}), hull_of({{1, 1, 1}, 0.3})};
   fail_every_allocation("a union of hulls", [&]() -> Answer {
-    const auto bounds = in_runtime([&] { return measure_hull_union(hulls, {.width = 0.05, .threads = 1}); });
+    const auto bounds = in_runtime([&] { return measure_hull_union(hulls, {.width = 0.4, .threads = 1}); });
     if (!bounds.ok()) return bounds.error();
     std::string out;
     append_bytes(out, bounds.value());

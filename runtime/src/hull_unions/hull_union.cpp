@@ -93,7 +93,7 @@ class UnionMeasure {
   double cell_volume() const { return half_ * half_ * half_; }  // of a unit of CoveredCell
 
   /// Independent of the number of threads.
-  std::size_t block() const { return std::clamp<std::size_t>(cells_.size() / 512, 1, 128); }
+  std::size_t block() const { return std::clamp<std::size_t>(cells_.size() / 128, 1, 128); }
 
   void test_level() {
     covered_.resize(cells_.size());
@@ -103,6 +103,7 @@ class UnionMeasure {
     parallel_blocks(cells_.size(), block_size, options_.threads, [&](std::size_t begin, std::size_t end) {
       watch_.check();
       BlockLists& lists = block_lists_[begin / block_size];
+      lists.counts.reserve(end - begin);
       std::vector<HullAtCell> meets;
       for (std::size_t i = begin; i < end; ++i) {
         const UnionCell& cell = cells_[i];

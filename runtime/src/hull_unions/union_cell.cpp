@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 #include "hull_unions/cut_cube.h"
 
@@ -36,9 +38,8 @@ class CellCover {
       if (nearest.distance > reach) continue;
       if (nearest.distance < -reach) return kCovered;
       meets.push_back({hull, nearest});
+      if (meets.size() <= CutCube::kMostCuts) move_to_place(meets);  // longer lists are not used in order
     }
-    std::stable_sort(meets.begin(), meets.end(),
-                     [](const HullAtCell& a, const HullAtCell& b) { return a.nearest.distance < b.nearest.distance; });
     if (meets.size() > CutCube::kMostCuts) return kUnknown;
     std::size_t count = 0;
     for (std::size_t i = 0; i < meets.size(); ++i) {
@@ -56,6 +57,14 @@ class CellCover {
   }
 
  private:
+  /// Moves the last hull before those that are farther from the centre: most lists are short and nearly in order.
+  static void move_to_place(std::vector<HullAtCell>& meets) {
+    for (std::size_t i = meets.size() - 1; i > 0; --i) {
+      if (meets[i - 1].nearest.distance <= meets[i].nearest.distance) return;
+      std::swap(meets[i - 1], meets[i]);
+    }
+  }
+
   enum class Meeting : std::uint8_t { kNone, kPart, kWhole };
 
   /// The signed distance g is convex. Less a linear function it is convex, too, and greatest at a corner: if g is at

@@ -29,7 +29,7 @@ struct CoveredCell {
 };
 
 /// Bounds for the cell with that centre and half side. `may_meet` names all hulls that may meet it; `meets` becomes
-/// those of them that do or may, by ascending distance from the centre, unless the bounds are equal.
+/// those of them that do or may, the nearest first if they are few, unless the bounds are equal.
 CoveredCell cover_cell(const UnionHulls& hulls, const Point& centre, double half_side,
                        std::span<const std::uint32_t> may_meet, std::vector<HullAtCell>& meets);
 

@@ -35,7 +35,7 @@ void expect_between(const Bounds& bounds, double volume, double error) {
 
 TEST(HullUnion, OfOneHullIsItsVolume) {
   std::mt19937_64 random(21);
-  for (std::uint32_t i = 0; i < 60; ++i) {
+  for (std::uint32_t i = 0; i < 30; ++i) {
     SCOPED_TRACE(i);
     const BallHull hull = test::random_hull(1 + i % 3, random);
     const double volume = volume_of(hull);
