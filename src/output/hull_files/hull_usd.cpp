@@ -125,12 +125,13 @@ Status add_hull_mesh(const BallHull& hull, const std::string& name, UsdText& usd
   return {};
 }
 
-/// A cone that is nearly its larger ball is written as that.
+/// A steep cone is nearly its larger ball, and is written as that if this has more of its volume.
 Status add_two_balls(const BallHull& hull, const std::string& name, UsdText& usd) {
   const std::optional<BallHull> inner = for_both_readings(hull);
-  if (!inner) {
-    const bool second = hull.corners[1].radius > hull.corners[0].radius;
-    add_sphere(hull.corners[second ? 1 : 0], name, usd);
+  const bool second = hull.corners[1].radius > hull.corners[0].radius;
+  const Ball& larger = hull.corners[second ? 1 : 0];
+  if (!inner || volume_of(*inner) < volume_of(hull_of(larger))) {
+    add_sphere(larger, name, usd);
     return {};
   }
   const std::optional<PosedCapsule> posed = posed_capsule(*inner, kNoOrigin, Digits::kDouble);

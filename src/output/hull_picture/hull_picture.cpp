@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "medial_vk/mesh.h"
 #include "output/colours/colour_map.h"
@@ -23,10 +24,17 @@ std::string title_of(const HullRecord& record) {
     if (kinds[k] == 0) continue;
     title += fmt::format("{}{} {}", title.empty() ? "" : ", ", kinds[k], kinds[k] == 1 ? one[k] : many[k]);
   }
-  if (const std::optional<Bounds> share = uncovered_share(record)) {
-    title += fmt::format("; {:.3g} % uncovered", 100 * share->upper);
-  }
   return title;
+}
+
+/// Colours only tell hulls apart: a text without one stands in the place of their bar.
+picture::Legend legend_of(const HullRecord& record) {
+  picture::Legend legend;
+  legend.title = title_of(record);
+  const std::optional<Bounds> share = uncovered_share(record);
+  legend.swatches.emplace_back(std::numeric_limits<std::size_t>::max(),
+                               share ? fmt::format("{:.3g} % of the volume uncovered", 100 * share->upper) : "inside");
+  return legend;
 }
 
 }  // namespace
@@ -53,8 +61,7 @@ Result<Picture> draw_hulls(const HullRecord& record, const MeshView& solid, cons
     const std::size_t colour = picture::sheet_colour_index(static_cast<std::int32_t>(i));
     scene.painted.light.resize(surface.positions.size(), picture::to_light(picture::sheet_colours()[colour]));
   }
-  scene.legend = {};
-  scene.legend.title = title_of(record);
+  scene.legend = legend_of(record);
   Picture picture = picture::blank(how);
   const picture::Panel panel = {.width = picture.width, .in_glass = true, .painted = true};
   picture::draw_panel(scene, panel, how.view, picture);

@@ -12,28 +12,25 @@
 #include <string>
 #include <vector>
 
-#include "base/point_ops.h"
 #include "common/tool_errors.h"
 #include "support/hulls/hull_samples.h"
 #include "support/hulls/usd_text.h"
-#include "unit/output/parsed_glb.h"
+#include "unit/hull_output/hull_expectations.h"
 
 namespace medial_vk {
 namespace {
 
 using nlohmann::json;
+using test::encoded;
+using test::expect_ball_inside;
+using test::expect_mesh_of;
 using test::record_of;
+using test::rotated;
 using test::sample_hulls;
 using test::UsdPrim;
 using testing::HasSubstr;
 
 constexpr Point kPlace = {30, -20, 10};
-
-std::string encoded(HullFormat format, const HullRecord& record) {
-  Result<std::string> bytes = encode_hulls(format, record);
-  EXPECT_TRUE(bytes.ok()) << name_of(format) << ": " << (bytes.ok() ? "" : bytes.error().message);
-  return bytes.ok() ? std::move(bytes).value() : std::string();
-}
 
 void expect_same_balls(const BallHull& hull, const std::vector<Ball>& balls) {
   ASSERT_EQ(balls.size(), hull.count);
@@ -41,40 +38,6 @@ void expect_same_balls(const BallHull& hull, const std::vector<Ball>& balls) {
     EXPECT_EQ(balls[i].centre, hull.corners[i].centre);
     EXPECT_EQ(balls[i].radius, hull.corners[i].radius);
   }
-}
-
-/// Every edge of a closed surface has one neighbour in the other direction.
-void expect_closed(const std::vector<Triangle>& triangles) {
-  std::map<std::array<std::uint32_t, 2>, int> edges;
-  for (const Triangle& t : triangles) {
-    for (std::size_t k = 0; k < 3; ++k) ++edges[{t[k], t[(k + 1) % 3]}];
-  }
-  for (const auto& [edge, count] : edges) {
-    ASSERT_EQ(count, 1);
-    ASSERT_TRUE(edges.contains({edge[1], edge[0]}));
-  }
-}
-
-double volume_in(const std::vector<Point>& vertices, const std::vector<Triangle>& triangles) {
-  double six_volumes = 0;
-  for (const auto& [a, b, c] : triangles) {
-    const Point o = vertices[0];
-    six_volumes += dot(vertices[a] - o, cross(vertices[b] - o, vertices[c] - o));
-  }
-  return six_volumes / 6;
-}
-
-/// Closed, inside the hull, and with most of its volume: within 1 % of the greatest radius of the surface.
-void expect_mesh_of(const BallHull& hull, const std::vector<Point>& vertices, const std::vector<Triangle>& triangles) {
-  expect_closed(triangles);
-  for (const Point& v : vertices) ASSERT_LE(signed_distance(hull, v), 0);
-  const double volume = volume_of(hull);
-  EXPECT_LE(volume_in(vertices, triangles), volume * (1 + 1e-12));
-  EXPECT_GT(volume_in(vertices, triangles), 0.85 * volume);
-}
-
-void expect_ball_inside(const BallHull& hull, const Point& centre, double radius) {
-  EXPECT_LE(signed_distance(hull, centre) + radius, 0);
 }
 
 TEST(HullFiles, FormatsHaveWordsAndExtensions) {
@@ -227,13 +190,6 @@ TEST(HullFiles, ObjHasAMeshForEachHull) {
   for (std::size_t i = 0; i < 12; ++i) expect_mesh_of(record.fit.hulls[i], vertices[i], triangles[i]);
 }
 
-/// A vector by the rotation of a quaternion w, x, y, z of unit length.
-Point rotated(const std::vector<double>& q, const Point& p) {
-  const Point v = {q[1], q[2], q[3]};
-  const Point twice = 2 * cross(v, p);
-  return p + q[0] * twice + cross(v, twice);
-}
-
 void expect_usd_capsule(const BallHull& hull, const UsdPrim& prim) {
   const std::vector<double> q = prim.at("xformOp:orient").numbers(), at = prim.at("xformOp:translate").numbers();
   ASSERT_EQ(q.size(), 4u);
@@ -300,102 +256,6 @@ TEST(HullFiles, UsdHasColliders) {
   EXPECT_EQ(types["Capsule"], 8);
   EXPECT_GT(types["Capsule_1"], 4);
   EXPECT_GE(types["Sphere"], 16);  // balls, and cones of which one ball holds the other
-}
-
-/// The sum of the translations of a node and of those that lead to it.
-class GltfNodes {
- public:
-  explicit GltfNodes(const json& nodes) : nodes_(nodes), places_(nodes.size()) { place(0, {0, 0, 0}); }
-  const Point& at(std::size_t node) const { return places_[node]; }
-
- private:
-  void place(std::size_t node, const Point& parent) {
-    places_[node] = parent + nodes_[node]["translation"].get<Point>();
-    for (const json& child : nodes_[node].value("children", json::array())) place(child, places_[node]);
-  }
-
-  const json& nodes_;
-  std::vector<Point> places_;
-};
-
-void expect_gltf_shape(const BallHull& hull, const json& shape, const json& node, const Point& at) {
-  if (shape["type"] == "sphere") {
-    expect_ball_inside(hull, at, shape["sphere"]["radius"]);
-    return;
-  }
-  EXPECT_EQ(shape["type"], "capsule");
-  const auto q = node["rotation"].get<std::array<double, 4>>();
-  const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  const Point up = rotated({q[3] / length, q[0] / length, q[1] / length, q[2] / length}, {0, 1, 0});
-  const json& capsule = shape["capsule"];
-  const double half = capsule["height"].get<double>() / 2;
-  EXPECT_GT(half, 0);
-  expect_ball_inside(hull, at - half * up, capsule["radiusBottom"]);
-  expect_ball_inside(hull, at + half * up, capsule["radiusTop"]);
-  const double larger = std::max(hull.corners[0].radius, hull.corners[1].radius);
-  EXPECT_GT(std::max(capsule["radiusBottom"].get<double>(), capsule["radiusTop"].get<double>()), larger - 1e-5);
-}
-
-TEST(HullFiles, GlbHasMeshesAndImplicitShapes) {
-  const HullRecord record = record_of(sample_hulls(48, kPlace, 1, 6));
-  const test::Glb glb = test::parse_glb(encoded(HullFormat::kGlb, record));
-  const json& document = glb.document;
-  EXPECT_EQ(document["extensionsUsed"], json({"KHR_implicit_shapes", "KHR_physics_rigid_bodies"}));
-  EXPECT_FALSE(document.contains("extensionsRequired"));
-  const json &nodes = document["nodes"], &shapes = document["extensions"]["KHR_implicit_shapes"]["shapes"];
-  const GltfNodes places(nodes);
-  EXPECT_EQ(shapes.size(), 40u);  // all but slabs
-  ASSERT_EQ(nodes[0]["children"].size(), 48u);
-  const char* names[] = {"USP_part_00", "UCP_part_01", "UCX_part_02", "UCX_part_03"};
-  for (std::size_t i = 0; i < 48; ++i) {
-    const BallHull& hull = record.fit.hulls[i];
-    const std::size_t index = nodes[0]["children"][i];
-    const json& node = nodes[index];
-    if (i < 4) {
-      EXPECT_EQ(node["name"], names[i]);
-    }
-    const json& primitive = document["meshes"][node["mesh"].get<std::size_t>()]["primitives"][0];
-    std::vector<Point> vertices;
-    for (const auto& v : test::vectors(glb, primitive["attributes"]["POSITION"])) {
-      vertices.push_back(places.at(index) + Point{v[0], v[1], v[2]});
-    }
-    const json& accessor = document["accessors"][primitive["indices"].get<std::size_t>()];
-    EXPECT_EQ(accessor["componentType"], 5125);
-    const json& view = document["bufferViews"][accessor["bufferView"].get<std::size_t>()];
-    std::vector<Triangle> triangles(accessor["count"].get<std::size_t>() / 3);
-    for (std::size_t k = 0; k < 3 * triangles.size(); ++k) {
-      triangles[k / 3][k % 3] = test::glb_word(glb.buffer, view["byteOffset"].get<std::size_t>() + 4 * k);
-    }
-    expect_mesh_of(hull, vertices, triangles);
-    EXPECT_EQ(node.contains("children"), kind_of(hull) != HullKind::kSlab);
-    if (!node.contains("children")) continue;
-    const std::size_t collider = node["children"][0];
-    const json& extension = nodes[collider]["extensions"]["KHR_physics_rigid_bodies"];
-    const std::size_t shape = extension["collider"]["geometry"]["shape"];
-    expect_gltf_shape(hull, shapes[shape], nodes[collider], places.at(collider));
-  }
-}
-
-TEST(HullFiles, GltfIsTheSameAsText) {
-  const HullRecord record = record_of(sample_hulls(6, kPlace, 1, 7));
-  const test::Glb glb = test::parse_glb(encoded(HullFormat::kGlb, record));
-  json text = json::parse(encoded(HullFormat::kGltf, record));
-  const std::string uri = text["buffers"][0]["uri"];
-  const std::string head = "data:application/octet-stream;base64,";
-  ASSERT_EQ(uri.substr(0, head.size()), head);
-  const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string bytes;
-  std::uint32_t bits = 0, known = 0;
-  for (std::size_t i = head.size(); i < uri.size() && uri[i] != '='; ++i) {
-    bits = bits << 6 | static_cast<std::uint32_t>(letters.find(uri[i]));
-    known += 6;
-    if (known < 8) continue;
-    known -= 8;
-    bytes += static_cast<char>(bits >> known & 0xff);
-  }
-  EXPECT_EQ(bytes, glb.buffer);
-  text["buffers"][0].erase("uri");
-  EXPECT_EQ(text, glb.document);
 }
 
 TEST(HullFiles, ARadiusThatDoesNotSufficeNamesTheFormat) {
