@@ -82,14 +82,14 @@ class TriangleGap {
   /// Where an edge of the axis passes through the triangle.
   void pierce(std::uint32_t from, std::uint32_t to, const std::array<Point, 3>& triangle, AxisPoint& best) const {
     const Ball &a = hull_.corners[from], &b = hull_.corners[to];
-    std::array<double, 3> unused;
+    std::array<double, 3> weight;
     double share;
-    if (!passes(a.centre, b.centre, triangle, share, unused)) return;
+    if (!passes(a.centre, b.centre, triangle, share, weight)) return;
     AxisPoint found;
     found.weight[from] = 1 - share;
     found.weight[to] = share;
-    found.distance = -(a.radius + share * (b.radius - a.radius));
-    keep(best, found);
+    const Point p = weight[0] * triangle[0] + weight[1] * triangle[1] + weight[2] * triangle[2];
+    keep_at(best, found, p);
   }
 
   /// Where an edge of the triangle passes through the axis.
@@ -98,7 +98,14 @@ class TriangleGap {
     double share;
     const std::array<Point, 3> axis = {hull_.corners[0].centre, hull_.corners[1].centre, hull_.corners[2].centre};
     if (!passes(start, end, axis, share, found.weight)) return;
-    found.distance = -ball_at(hull_, found.weight).radius;
+    keep_at(best, found, start + share * (end - start));
+  }
+
+  /// The distance of a meeting point, which is 0 only up to the rounding of a normal: that of a thin triangle may have
+  /// any direction.
+  void keep_at(AxisPoint& best, AxisPoint& found, const Point& p) const {
+    const Ball ball = ball_at(hull_, found.weight);
+    found.distance = length(p - ball.centre) - ball.radius;
     keep(best, found);
   }
 

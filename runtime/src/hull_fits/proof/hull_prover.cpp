@@ -69,7 +69,8 @@ class Planes {
     if (best > 0) return;
     const Ball ball = ball_at(hull_, gap_.nearest(triangle).weight);
     best = std::max(best, separation(triangle, hull_, nearest_on_triangle(ball.centre, triangle).offset));
-    if (!(best > 0)) proof_.lack = std::max(proof_.lack, -best);
+    // A plane that only touches both proves nothing, and a lack of 0 would say that there is one.
+    if (!(best > 0)) proof_.lack = std::max({proof_.lack, -best, std::numeric_limits<double>::denorm_min()});
   }
 
   /// Of the planes along the triangle, which are exact where a face of the hull lies along it.
@@ -87,7 +88,7 @@ class Planes {
 };
 
 /// True if all of the hull is inside an open boundary that it does not meet: it is the union of the hulls of parts of
-/// its axis, each of which is in a ball around its first centre on which the side does not change.
+/// its axis, each of which is in a ball around its middle on which the side does not change.
 bool is_inside_of_open(const Solid& solid, const BallHull& hull) {
   // Middles of parts are rounded at most kMostParts times, each by less than half a unit in the last place of the
   // greatest coordinate.
@@ -106,6 +107,8 @@ bool is_inside_of_open(const Solid& solid, const BallHull& hull) {
     middle = (1.0 / part.count) * middle;
     double reach = 0;
     for (const Ball& ball : part.balls()) reach = std::max(reach, length(ball.centre - middle) + ball.radius);
+    // The computed middle, on whose side all depends, and the exact one, which the part holds, are on one side.
+    if (!(solid.distance(middle) > slack + 2 * solid.rounding())) return false;
     const SolidSide side = solid.side_around(middle, reach * (1 + 0x1p-40) + slack);
     if (side == SolidSide::kOutside) return false;
     if (side == SolidSide::kInside) continue;

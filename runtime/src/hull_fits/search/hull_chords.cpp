@@ -127,9 +127,10 @@ Chord HullChords::at(double u, double v) const {
     const double linear = -cone.squared_cosine * y0 * dz - cone.slope * dz * m0;
     const double constant = cone.squared_cosine * (du * du + dv * dv - y0 * y0) - m0 * m0;
     const double discriminant = linear * linear - cone.quadratic * constant;
-    if (!(discriminant >= 0) || cone.quadratic == 0) continue;
-    const double root = std::sqrt(discriminant);
-    for (const double z : {(-linear - root) / cone.quadratic, (-linear + root) / cone.quadratic}) {
+    if (!(discriminant >= 0)) continue;
+    // Along a line of the cone one of the solutions is at infinity: neither is a difference of numbers nearly equal.
+    const double sum = -(linear + std::copysign(std::sqrt(discriminant), linear));
+    for (const double z : {sum / cone.quadratic, constant / sum}) {
       const double y = y0 + dz * z, m = cone.radius + cone.slope * y;
       const double share = y + cone.slope * m / cone.squared_cosine;
       if (m >= 0 && share >= 0 && share <= cone.extent) extend(chord, sphere.z + z);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -48,7 +47,6 @@ class HullSearch {
   Trial best_new(std::size_t except);
   void climb(Trial& trial, double& step, std::size_t generations, std::size_t except);
   void replace(std::size_t i, const Trial& trial);
-  SplitMix random_of_next() { return SplitMix(0x9e3779b97f4a7c15ull * ++draws_); }
 
   const Solid& solid_;
   HullSearchEffort effort_;
