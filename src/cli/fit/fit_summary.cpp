@@ -69,7 +69,7 @@ OrderedJson goals_of_fit(const HullFitOptions& options) {
   const auto given = [](auto value) { return value > 0 ? OrderedJson(value) : OrderedJson(nullptr); };
   return {{"count", given(options.count)}, {"parameters", given(options.parameters)},
           {"error", given(options.error)}, {"max_gap", given(options.max_gap)},
-          {"width", options.width},        {"resolution", given(options.resolution)}};
+          {"width", given(options.width)}, {"resolution", given(options.resolution)}};
 }
 
 OrderedJson check_json(const std::optional<CheckReport>& check) {
@@ -120,6 +120,7 @@ std::string fit_report(const HullRecord& record) {
       {"output_format", record.output_format},
       {"mesh", record.name},
       {"triangles", record.mesh.triangles},
+      {"longest_side", record.mesh.longest_side()},
       {"closed", record.mesh.closed},
       {"assumptions", record.mesh.assumptions},
       {"primitives", name_of(record.options.choice)},

@@ -27,6 +27,15 @@ std::string title_of(const HullRecord& record) {
   return title;
 }
 
+/// The hull with radii that are smaller, by a share of their size that grows with its number but stays invisible: of
+/// faces in one plane, as in a plate, the one of the first hull is seen, instead of a mixture.
+BallHull set_back(BallHull hull, std::size_t number, std::size_t count) {
+  constexpr double kMost = 0.02;
+  const double share = kMost * static_cast<double>(number) / static_cast<double>(std::max<std::size_t>(count, 64));
+  for (std::uint32_t i = 0; i < hull.count; ++i) hull.corners[i].radius *= 1 - share;
+  return hull;
+}
+
 /// Colours only tell hulls apart: a text without one stands in the place of their bar.
 picture::Legend legend_of(const HullRecord& record) {
   picture::Legend legend;
@@ -53,7 +62,7 @@ Result<Picture> draw_hulls(const HullRecord& record, const MeshView& solid, cons
     double greatest = 0;
     for (const Ball& ball : hulls[i].balls()) greatest = std::max(greatest, ball.radius);
     if (!(greatest > 0)) continue;  // nothing to be seen
-    const Result<Mesh> mesh = mesh_of(hulls[i], kDrawnShare * greatest);
+    const Result<Mesh> mesh = mesh_of(set_back(hulls[i], i, hulls.size()), kDrawnShare * greatest);
     if (!mesh) return mesh.error();
     const picture::Surface part = picture::make_surface(shape, mesh.value());
     surface.positions.insert(surface.positions.end(), part.positions.begin(), part.positions.end());
