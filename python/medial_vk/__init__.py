@@ -72,6 +72,7 @@ from ._following import (
     FollowMeasures,
 )
 from ._groups import BodyGroup, LeastDistances
+from ._hulls import HullFit, HullProof, Hulls, fit_hulls, prove_hulls
 from ._mesh import ClosestPoints, Mesh, MeshReport, read_mesh
 from ._native import VERSION as __version__
 from ._page import Page
@@ -142,6 +143,9 @@ __all__ = [
     "FollowMeasures",
     "FollowedBalls",
     "Follower",
+    "HullFit",
+    "HullProof",
+    "Hulls",
     "InsideProof",
     "LeastDistances",
     "LeastWall",
@@ -199,6 +203,7 @@ __all__ = [
     "distances",
     "errors",
     "first_contact",
+    "fit_hulls",
     "fit_parts",
     "fit_spheres",
     "least_wall",
@@ -210,6 +215,7 @@ __all__ = [
     "plane_axis",
     "plane_axis_as_published",
     "plane_voronoi",
+    "prove_hulls",
     "prove_spheres",
     "read_mesh",
     "rigid_pose",

@@ -64,6 +64,7 @@ void bind_context(pybind11::module_& module);
 void bind_mesh(pybind11::module_& module);
 void bind_analysis(pybind11::module_& module);
 void bind_spheres(pybind11::module_& module);
+void bind_hulls(pybind11::module_& module);
 void bind_unions(pybind11::module_& module);
 void bind_distances(pybind11::module_& module);
 void bind_following(pybind11::module_& module);

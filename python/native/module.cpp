@@ -20,6 +20,7 @@ PYBIND11_MODULE(_native, module) {
   python::bind_mesh(module);
   python::bind_analysis(module);
   python::bind_spheres(module);
+  python::bind_hulls(module);
   python::bind_unions(module);
   python::bind_distances(module);
   python::bind_following(module);

@@ -10,6 +10,8 @@
 
 namespace medial_vk::python {
 
+inline pybind11::tuple bounds_tuple(const Bounds& bounds) { return pybind11::make_tuple(bounds.lower, bounds.upper); }
+
 SphereFitOptions read_fit_options(Options& options);
 
 /// With `balls_only` there is the proof of the contract alone.

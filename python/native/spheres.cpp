@@ -13,8 +13,6 @@ namespace {
 
 namespace py = pybind11;
 
-py::tuple bounds_tuple(const Bounds& bounds) { return py::make_tuple(bounds.lower, bounds.upper); }
-
 py::dict inside_dict(const InsideProof& proof) {
   py::dict out;
   out["tested"] = proof.tested;
