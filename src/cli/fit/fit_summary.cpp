@@ -69,7 +69,7 @@ OrderedJson goals_of_fit(const HullFitOptions& options) {
   const auto given = [](auto value) { return value > 0 ? OrderedJson(value) : OrderedJson(nullptr); };
   return {{"count", given(options.count)}, {"parameters", given(options.parameters)},
           {"error", given(options.error)}, {"max_gap", given(options.max_gap)},
-          {"width", options.width},        {"resolution", given(options.resolution)}};
+          {"width", given(options.width)}, {"resolution", given(options.resolution)}};
 }
 
 OrderedJson check_json(const std::optional<CheckReport>& check) {

@@ -16,7 +16,7 @@ void require_usable(const cli::FitCommandOptions& options) {
           "--parameters keeps its range");
   require(fit.error >= 0 && fit.error < 1, "--error keeps its range");
   require(fit.max_gap >= 0 && std::isfinite(fit.max_gap), "--max-gap keeps its range");
-  require(fit.width > 0 && fit.width < 1, "--width keeps its range");
+  require(fit.width >= 0 && fit.width < 1, "--width keeps its range");
   require(fit.resolution <= 4096, "--resolution keeps its range");
   require(fit.threads <= 1024, "--threads keeps its range");
   require(fit.count > 0 || fit.parameters > 0 || fit.error > 0 || fit.max_gap > 0, "there is a goal");
