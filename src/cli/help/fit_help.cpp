@@ -31,8 +31,8 @@ How many (goals that are given together must all be met):
       --max-gap G       as many as leave no point of the surface farther than G
                         from the hulls, in units of the mesh
       --width W         volumes are between bounds that differ by at most W of
-                        the solid's volume (default: a fiftieth of what the
-                        hulls leave uncovered, between 0.00001 and 0.001)
+                        the solid's volume (default: a fiftieth of the share
+                        left uncovered, within 0.00001 and 0.001)
       --resolution N    voxels along the longest side for the hulls to start
                         from, 1 to 4096 (default: chosen by the goals)
 

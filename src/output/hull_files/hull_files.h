@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "common/hull_format.h"
 #include "medial_vk/result.h"
-#include "output/hull_files/hull_format.h"
 #include "output/hull_files/hull_record.h"
 
 namespace medial_vk {

@@ -30,7 +30,7 @@ TEST(FitOptions, Defaults) {
   EXPECT_EQ(options.format, HullFormat::kJson);
   EXPECT_EQ(options.hulls.choice, HullChoice::kSlabs);
   EXPECT_EQ(options.hulls.count, 32u);
-  EXPECT_EQ(options.hulls.width, 0) << "derived";
+  EXPECT_EQ(options.hulls.width, 0);
   EXPECT_EQ(options.backend, Backend::kVulkan);
   EXPECT_EQ(options, parsed_fit({"--count=32", "models/part.stl", "--primitives", "slabs"}));
   EXPECT_EQ(parsed_fit({"-", "--count", "2", "--format", "usda"}).output, "stdin.hulls.usda");

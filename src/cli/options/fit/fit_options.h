@@ -8,9 +8,9 @@
 
 #include "cli/options/output_names.h"
 #include "common/backend.h"
+#include "common/hull_format.h"
 #include "medial_vk/hull_fits.h"
 #include "medial_vk/result.h"
-#include "output/hull_files/hull_format.h"
 #include "output/picture/panels/options.h"
 
 namespace medial_vk::cli {

@@ -1,4 +1,4 @@
-#include "output/hull_files/hull_format.h"
+#include "common/hull_format.h"
 
 #include <fmt/format.h>
 
