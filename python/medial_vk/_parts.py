@@ -56,11 +56,14 @@ class Part:
             "link": link,
             "name": name,
             "pose": None if pose is None else _in_a_row(pose),
-            "mesh": None if self.mesh is None else self.mesh._native,
             "centre": None if ball is None else ball[0],
             "radius": None if ball is None else ball[1],
             "volume": volume,
         }
+
+    def _given(self) -> dict[str, Any]:
+        """For the library."""
+        return {**self._values, "mesh": None if self.mesh is None else self.mesh._native}
 
     def __repr__(self) -> str:
         return f"<Part {self.name!r} of link {self.link!r}>"
@@ -142,7 +145,7 @@ def fit_parts(
         NoDeviceError, OutOfMemoryError: As their names say.
     """
     options = {"count_per_link": count_per_link, "total": total, **fit_options(locals())}
-    given = [part._values.copy() for part in parts]
+    given = [part._given() for part in parts]
     with shown(progress) as callback:
         fits = _native.fit_parts(given, native_context(context), options, callback)
     return [_part_fit_of(values) for values in fits]
