@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
 
 #include "plane/diagram/cell_tree.h"
 #include "plane/shapes/close_edges.h"
