@@ -64,8 +64,11 @@ foreach(name ${full})
   set_tests_properties("${name}" PROPERTIES LABELS "${folder};full")
 endforeach()
 # Left out of the tests under ASan that scripts/test --asan-host runs, too; tests/CMakeLists.txt has those of unit. A
-# process that is killed reports nothing to the sanitizers; smaller meshes, pictures and fits remain.
+# process that is killed reports nothing to the sanitizers; smaller meshes, pictures and fits remain, and batches that go on.
 set(sanitized_full
+  cli.BatchKills.LoseTheMeshAtWorkAtMost
+  cli.BatchMerge.KillsLeaveLinesThatAreTrue
+  cli.BatchOtherOptions.NoKillMixesTwoRuns
   cli.Kills.LeaveWholeFilesOrNone/AllFiles
   cli.Kills.LeaveWholeFilesOrNone/Points
   cli.SpheresCommand.BestGivesTheSameBytesOnAnyNumberOfThreads

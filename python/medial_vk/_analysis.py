@@ -137,7 +137,8 @@ class Fatness(Result):
 
 
 class Analysis(Result):
-    """The result of ``analyse()``. What was not requested is None."""
+    """The result of ``analyse()``. What was not requested is None. It can be pickled, with its mesh and its arrays as the
+    library has made them, and gives the same files and pages afterwards."""
 
     mesh: Mesh
     grid: VoxelGrid
@@ -167,6 +168,9 @@ class Analysis(Result):
 
     def __len__(self) -> int:
         return len(self.spheres)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (self.mesh, self._native.state())
 
     def fatness(self, object_angles: ArrayLike, *, threads: int = 0) -> Fatness:
         """Least radii of the medial points, and what they mean for voxels, by k object angles in radians, shape (k,)."""
@@ -373,6 +377,11 @@ def _analysis_of(mesh: Mesh, native: _native.Analysis) -> Analysis:
         **removals,
         **values,
     )
+
+
+def _restored(mesh: Mesh, state: bytes) -> Analysis:
+    """An analysis that was pickled."""
+    return _analysis_of(mesh, _native.restore_analysis(mesh._native, state))
 
 
 def sheets_of(values: dict[str, Any] | None) -> Sheets | None:

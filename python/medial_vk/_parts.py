@@ -10,7 +10,7 @@ from ._context import Context, native_context
 from ._mesh import as_mesh
 from ._progress import shown
 from ._results import Result
-from ._spheres import SphereMeasures, measures_of
+from ._spheres import SphereMeasures, fit_options, measures_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -56,11 +56,14 @@ class Part:
             "link": link,
             "name": name,
             "pose": None if pose is None else _in_a_row(pose),
-            "mesh": None if self.mesh is None else self.mesh._native,
             "centre": None if ball is None else ball[0],
             "radius": None if ball is None else ball[1],
             "volume": volume,
         }
+
+    def _given(self) -> dict[str, Any]:
+        """For the library."""
+        return {**self._values, "mesh": None if self.mesh is None else self.mesh._native}
 
     def __repr__(self) -> str:
         return f"<Part {self.name!r} of link {self.link!r}>"
@@ -74,6 +77,7 @@ class PartFit(Result):
     reach: list[tuple[float, float, float]]  #: By level: mean, least and greatest distance by which balls reach out.
     count: int  #: The number of balls assigned to the part; 0: the number that its other goals require.
     solid_volume: float | None  #: Of the shape, if ``of_shape``, else of the mesh, if it encloses one cleanly.
+    aim: str  #: What the balls were chosen by: "volume" or "distance"; of ``aim`` "auto" the one that it took.
     of_shape: bool  #: Volumes are those of the ball, or of ``Part(volume=...)``.
     spheres_volume: float | None  #: Of the union of ``balls``.
     measures: SphereMeasures | None  #: Of ``proved``; None for a part that is a ball.
@@ -140,25 +144,8 @@ def fit_parts(
         InvalidMeshError: No ball fits.
         NoDeviceError, OutOfMemoryError: As their names say.
     """
-    options = {
-        "count_per_link": count_per_link,
-        "total": total,
-        "contract": contract,
-        "method": method,
-        "count": count,
-        "error": error,
-        "max_gap": max_gap,
-        "max_distance": max_distance,
-        "max_reach": max_reach,
-        "aim": aim,
-        "resolution": resolution,
-        "object_angle": object_angle,
-        "levels": levels,
-        "balls_only": balls_only,
-        "for_distances": for_distances,
-        "threads": threads,
-    }
-    given = [part._values.copy() for part in parts]
+    options = {"count_per_link": count_per_link, "total": total, **fit_options(locals())}
+    given = [part._given() for part in parts]
     with shown(progress) as callback:
         fits = _native.fit_parts(given, native_context(context), options, callback)
     return [_part_fit_of(values) for values in fits]

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from . import _native
 from ._plane import PlaneAxis, axis_fields
 from ._plane_shape import PlaneShape
 from ._progress import shown
-from ._results import Result
+from ._roadmaps import Path, Roadmap
 from .errors import UsageError
 
 if TYPE_CHECKING:
@@ -24,41 +24,18 @@ if TYPE_CHECKING:
     PlaneSiteLike = Union[PlaneShape, ArrayLike]
 
 
-class PlanePath(Result):
-    """A path; a disc of radius ``width`` around its points meets no site."""
-
-    line: NDArray[np.float64]  #: From the first place to the last, shape (n, 2).
-    width: float  #: In units of the sites.
-    length: float
+class PlanePath(Path):
+    """A path in the plane."""
 
 
-class PlaneRoadmap(Result):
-    """Curves between sites as a graph for motion planning, of m links. It never changes."""
+class PlaneRoadmap(Roadmap[PlanePath]):
+    """Curves between sites as a graph for motion planning, of m links."""
 
     arcs: NDArray[np.uint32]  #: By link: its arc of ``PlaneVoronoi.arcs``, shape (m,).
-    lengths: NDArray[np.float64]  #: In units of the sites.
-    widths: NDArray[np.float64]  #: A disc of this radius passes along the link, by proof.
     component_of_node: NDArray[np.uint32]  #: By node of ``PlaneVoronoi.nodes``.
-    components: int
-    _native: _native.PlaneRoadmap
 
-    def __len__(self) -> int:
-        return len(self.arcs)
-
-    def widest_path(self, start: ArrayLike, end: ArrayLike) -> PlanePath | None:
-        """Of the paths on the graph with the greatest width, the shortest; a path beside the graph may be wider.
-
-        Args:
-            start, end: Places between the sites, shape (2,).
-
-        Returns:
-            None if no straight lines to the graph are found, or both ends are in different components.
-
-        Raises:
-            UsageError: A place that is not finite, or in or on a site.
-        """
-        values = self._native.widest_path(start, end)
-        return None if values is None else PlanePath(**values)
+    def _path_of(self, values: dict[str, Any]) -> PlanePath:
+        return PlanePath(**values)
 
 
 class PlaneVoronoi(PlaneAxis):
@@ -98,8 +75,8 @@ def plane_voronoi(
     """The generalised Voronoi diagram of sites in the plane (Section 2.6 of the source). No device is needed.
 
     Args:
-        sites: Two at least: ``PlaneShape`` for a solid, or the points of a line, shape (n, 2), one row for a point.
-            They must not cross, which is not tested: near a crossing, curves would be wrong.
+        sites: Two at least, which are apart: ``PlaneShape`` for a solid, or the points of a line, shape (n, 2), one row
+            for a point. A line may cross itself.
         object_angle: Least half angle between the directions to both sites, radians.
         margin: The square around the box of all sites is searched that reaches this far beyond it, in units of the
             sites; 0: half the longest side.
@@ -108,7 +85,8 @@ def plane_voronoi(
 
     Raises:
         UsageError: Fewer than two sites, or an argument that is out of range, or neither shape nor line.
-        InvalidMeshError: A coordinate that is not finite, or a line with the same point twice in a row.
+        InvalidMeshError: A coordinate that is not finite, a line with the same point twice in a row, or sites that
+            cross, touch or overlap; the message names two of them.
     """
     elements = [site._native if isinstance(site, PlaneShape) else site for site in sites]
     if len(elements) < 2:

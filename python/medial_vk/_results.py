@@ -14,6 +14,7 @@ class Result:
     _fields: ClassVar[tuple[str, ...]] = ()
 
     def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
         own = tuple(name for name in cls.__dict__.get("__annotations__", {}) if name != "_fields")
         cls._fields = cls._fields + own
 

@@ -9,6 +9,7 @@ from ._analysis import VoxelGrid
 from ._mesh import Mesh, as_mesh
 from ._progress import shown
 from ._results import Result
+from ._roadmaps import Path, Roadmap
 from .errors import UsageError
 
 if TYPE_CHECKING:
@@ -93,42 +94,20 @@ class SitePieces(Result):
         return len(self.areas)
 
 
-class SitePath(Result):
-    """A path; a ball of radius ``width`` around its points meets no site."""
+class SitePath(Path):
+    """A path in space."""
 
-    line: NDArray[np.float64]  #: From the first place to the last, shape (n, 3).
     points: NDArray[np.int64]  #: By point of the line: its number in ``SiteVoronoi.points``; -1 of others.
-    width: float  #: In units of the sites.
-    length: float
 
 
-class SiteRoadmap(Result):
-    """The points of a surface between sites as a graph for motion planning, of m links. It never changes."""
+class SiteRoadmap(Roadmap[SitePath]):
+    """The points of a surface between sites as a graph for motion planning, of m links."""
 
     points: NDArray[np.uint32]  #: By link: two of ``SiteVoronoi.points``, shape (m, 2).
-    lengths: NDArray[np.float64]  #: In units of the sites.
-    widths: NDArray[np.float64]  #: A ball of this radius passes along the link, by proof.
     component_of_point: NDArray[np.uint32]  #: By point.
-    components: int
-    _native: _native.SiteRoadmap
 
-    def __len__(self) -> int:
-        return len(self.lengths)
-
-    def widest_path(self, start: ArrayLike, end: ArrayLike) -> SitePath | None:
-        """Of the paths on the graph with the greatest width, the shortest; a path beside the graph may be wider.
-
-        Args:
-            start, end: Places outside of all sites, shape (3,).
-
-        Returns:
-            None if no straight lines to the graph are found, or both ends are in different components.
-
-        Raises:
-            UsageError: A place that is not finite, or in or on a site.
-        """
-        values = self._native.widest_path(start, end)
-        return None if values is None else SitePath(**values)
+    def _path_of(self, values: dict[str, Any]) -> SitePath:
+        return SitePath(**values)
 
 
 class SiteVoronoi(Result):

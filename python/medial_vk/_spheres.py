@@ -122,6 +122,7 @@ class SphereFit(Result):
     reach: list[tuple[float, float, float]]  #: By level: mean, least and greatest distance by which balls reach out.
     measures: SphereMeasures  #: Of ``balls``; with ``balls_only`` the proof alone.
     solid_volume: float | None  #: If the mesh encloses one cleanly.
+    aim: str  #: What the balls were chosen by: "volume" or "distance"; of ``aim`` "auto" the one that it took.
 
     @property
     def centres(self) -> NDArray[np.float64]:
@@ -207,22 +208,7 @@ def fit_spheres(
         InvalidMeshError: No ball fits.
         NoDeviceError, OutOfMemoryError: As their names say.
     """
-    options = {
-        "contract": contract,
-        "method": method,
-        "count": count,
-        "error": error,
-        "max_gap": max_gap,
-        "max_distance": max_distance,
-        "max_reach": max_reach,
-        "aim": aim,
-        "resolution": resolution,
-        "object_angle": object_angle,
-        "levels": levels,
-        "balls_only": balls_only,
-        "for_distances": for_distances,
-        "threads": threads,
-    }
+    options = fit_options(locals())
     with shown(progress) as callback:
         values = _native.fit_spheres(as_mesh(mesh)._native, native_context(context), options, callback)
     sets = [Balls(**level) for level in values["levels"]]
@@ -232,7 +218,31 @@ def fit_spheres(
         reach=values["reach"],
         measures=measures_of(values["measures"]),
         solid_volume=values["solid_volume"],
+        aim=values["aim"],
     )
+
+
+def fit_options(arguments: dict[str, Any]) -> dict[str, Any]:
+    """Of the arguments of ``fit_spheres()`` or ``fit_parts()``, by name, those that are options of a fit in the library."""
+    return {name: arguments[name] for name in _FIT_OPTIONS}
+
+
+_FIT_OPTIONS = (
+    "contract",
+    "method",
+    "count",
+    "error",
+    "max_gap",
+    "max_distance",
+    "max_reach",
+    "aim",
+    "resolution",
+    "object_angle",
+    "levels",
+    "balls_only",
+    "for_distances",
+    "threads",
+)
 
 
 def prove_spheres(

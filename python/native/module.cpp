@@ -9,6 +9,26 @@
 #include "native/errors.h"
 #include "native/handles.h"
 
+namespace {
+
+namespace py = pybind11;
+
+/// Objects of the library cannot be pickled, and say so: a mesh, a body and an analysis are pickled by the package.
+void refuse_pickling(const py::module_& module) {
+  for (const auto& [name, value] : module.attr("__dict__").cast<py::dict>()) {
+    if (!py::isinstance<py::type>(value)) continue;
+    const py::cpp_function refuse(
+        [](const py::object& self) -> py::object {
+          throw py::type_error(py::type::of(self).attr("__name__").cast<std::string>() +
+                               " cannot be pickled, nor copied deeply: it belongs to the library in this process");
+        },
+        py::name("__reduce__"), py::is_method(value));
+    value.attr("__reduce__") = refuse;
+  }
+}
+
+}  // namespace
+
 PYBIND11_MODULE(_native, module) {
   namespace python = medial_vk::python;
   module.doc() = "Calls of the medial-vk library; use the package medial_vk.";
@@ -31,4 +51,5 @@ PYBIND11_MODULE(_native, module) {
   python::bind_any_boundary(module);
   python::bind_part_fits(module);
   python::bind_body_groups(module);
+  refuse_pickling(module);
 }

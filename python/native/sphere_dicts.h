@@ -17,6 +17,9 @@ SphereFitOptions read_fit_options(Options& options);
 /// With `balls_only` there is the proof of the contract alone.
 pybind11::dict measures_dict(const SphereMeasures& measures, bool balls_only);
 
+/// The aim that a fit had: "volume" or "distance".
+const char* aim_name(SphereAim aim);
+
 /// Adds `levels`, a list of balls for each, and `reach`, three numbers for each.
 void add_levels(const std::vector<std::vector<Ball>>& levels, const std::vector<ReachOut>& reach, pybind11::dict& out);
 

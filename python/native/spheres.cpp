@@ -123,6 +123,8 @@ py::dict measures_dict(const SphereMeasures& measures, bool balls_only) {
   return out;
 }
 
+const char* aim_name(SphereAim aim) { return aim == SphereAim::kDistance ? "distance" : "volume"; }
+
 void add_levels(const std::vector<std::vector<Ball>>& levels, const std::vector<ReachOut>& reach, py::dict& out) {
   py::list of_levels, of_reach;
   for (const std::vector<Ball>& level : levels) of_levels.append(balls_dict(level));
@@ -138,6 +140,7 @@ py::dict fit_dict(const SphereFit& fit, bool balls_only) {
   add_levels(fit.levels, fit.reach, out);
   out["measures"] = measures_dict(fit.measures, balls_only);
   out["solid_volume"] = fit.solid_volume ? py::object(py::float_(*fit.solid_volume)) : py::object(py::none());
+  out["aim"] = aim_name(fit.aim);
   return out;
 }
 

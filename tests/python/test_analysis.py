@@ -1,6 +1,8 @@
 """Medial spheres: results, progress, interruption, plots and pages."""
 
+import copy
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -14,6 +16,7 @@ import numpy as np
 import shapes
 
 import medial_vk as mv
+
 
 class Results(unittest.TestCase):
     @classmethod
@@ -55,6 +58,86 @@ class Results(unittest.TestCase):
                 np.testing.assert_array_equal(arrays["centre"], self.found.spheres.centres)
             with self.assertRaisesRegex(mv.errors.UsageError, "extension"):
                 self.found.save(os.path.join(folder, "a.xyz"))
+
+    def assert_same(self, one, two):
+        """All fields, which for results are those of results in them."""
+        self.assertIs(type(one), type(two))
+        if isinstance(one, np.ndarray):
+            self.assertEqual(one.dtype, two.dtype)
+            np.testing.assert_array_equal(one, two)
+        elif hasattr(one, "_fields"):
+            for name in one._fields:
+                if name != "_native":
+                    self.assert_same(getattr(one, name), getattr(two, name))
+        elif isinstance(one, mv.Mesh):
+            self.assert_same(one.triangles, two.triangles)
+        else:
+            self.assertEqual(one, two)
+
+    def files_of(self, found):
+        with tempfile.TemporaryDirectory() as folder:
+            for name, options in (("a.ply", {}), ("b.ply", {"ascii": True}), ("a.csv", {}), ("a.npz", {})):
+                path = os.path.join(folder, name)
+                found.save(path, **options)
+                with open(path, "rb") as file:
+                    yield file.read()
+
+    def test_pickled(self):
+        around = self.mesh.on_side("outside", margin=0.5)
+        for name, found in (
+            ("with everything", mv.analyse(self.mesh, resolution=30, keep_volume=0.9, removal_orders=True, medial_mesh=True, simplify=True)),
+            ("without sheets", mv.analyse(self.mesh, resolution=20, sheets=False, object_angle=0.7)),
+            ("as published", mv.analyse(self.mesh, resolution=20, mode="thesis")),
+            ("outside", mv.analyse(around, resolution=20, volumes=True)),
+        ):
+            with self.subTest(name):
+                other = pickle.loads(pickle.dumps(found))
+                self.assert_same(found, other)
+                self.assertEqual(found._native.state(), other._native.state())
+                self.assertEqual(list(self.files_of(found)), list(self.files_of(other)))
+                self.assert_same(found.fatness([0.7, 1.0]), other.fatness([0.7, 1.0]))
+                try:
+                    page = found.page(title="a", up="z")
+                except mv.errors.UsageError:
+                    continue  # a build without pages
+                self.assertEqual(page.html, other.page(title="a", up="z").html)
+        self.assert_same(self.found, copy.deepcopy(self.found))
+
+    def test_states_of_something_else(self):
+        from medial_vk import _analysis, _native
+
+        state = self.found._native.state()
+        version = _native.VERSION.encode()
+        with self.assertRaisesRegex(mv.errors.UsageError, "was not pickled by medial-vk " + _native.VERSION):
+            _analysis._restored(self.mesh, state.replace(version, b"9" * len(version), 1))
+        for wrong in (b"", state[:-1], state + b"0", state[: len(state) // 2]):
+            with self.assertRaises(mv.errors.UsageError):
+                _analysis._restored(self.mesh, wrong)
+        # Every number of a list or a text that is too large ends the reading.
+        random = np.random.default_rng(5)
+        for place in random.integers(40, len(state) - 8, size=300):
+            damaged = state[:place] + b"\xff" * 8 + state[place + 8 :]
+            try:
+                _native.restore_analysis(self.mesh._native, damaged)
+            except mv.errors.UsageError:
+                pass
+
+    def test_what_cannot_be_pickled_says_so(self):
+        union = mv.measure_union(self.found, complex=True)
+        curves = mv.plane_voronoi([[[0.0, 0]], [[1.0, 1]]])
+        for thing, name in (
+            (union, "DualComplex"),
+            (curves, "PlaneAxis"),
+            (curves.roadmap(), "PlaneRoadmap"),
+            (mv.PlaneShape([[0, 0], [4, 0], [4, 1]]), "PlaneShape"),
+            (mv.curvature(self.found), "Curvature"),
+            (mv.default_context(), "Context"),
+            (mv.Follower(self.mesh, [[1.0, 0, 0, 0.1]]), "Follower"),
+        ):
+            for act in (pickle.dumps, copy.deepcopy):
+                with self.subTest(name), self.assertRaisesRegex(TypeError, f"^{name} cannot be pickled, nor copied deeply"):
+                    act(thing)
+        self.assert_same(mv.measure_union(self.found), pickle.loads(pickle.dumps(mv.measure_union(self.found))))
 
     def test_page(self):
         try:

@@ -44,6 +44,16 @@ class Spheres(unittest.TestCase):
         plate = mv.Mesh(*shapes.box((2, 1.2, 0.04)))
         by_volume, by_distance = mv.fit_spheres(plate, 12), mv.fit_spheres(plate, 12, aim="distance")
         self.assertLess(mv.measure_gap(plate, by_distance)[1], mv.measure_gap(plate, by_volume)[0])
+        self.assertEqual((by_volume.aim, by_distance.aim), ("volume", "distance"))
+        # 12 balls of the largest radius, .02, have a two-hundredth of the plate's volume, and one as large as the ball in
+        # a cube has half and more of it.
+        cube = mv.Mesh(*shapes.box((1, 1, 1)))
+        for mesh, count, aim in ((plate, 12, "distance"), (cube, 1, "volume")):
+            auto = mv.fit_spheres(mesh, count, aim="auto", balls_only=True)
+            self.assertEqual(auto.aim, aim)
+            [part] = mv.fit_parts([mv.Part(mesh)], count, aim="auto", balls_only=True)
+            self.assertEqual(part.aim, aim)
+            np.testing.assert_array_equal(auto.radii, mv.fit_spheres(mesh, count, aim=aim, balls_only=True).radii)
         cover = mv.fit_spheres(plate, contract="cover", max_reach=0.3, balls_only=True)
         self.assertTrue(mv.prove_spheres(plate, cover=cover).cover.proved)
         self.assertLessEqual(max(cover.radii), 0.02 + 0.3)  # no centre is deeper

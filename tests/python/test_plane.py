@@ -223,6 +223,33 @@ class Voronoi(unittest.TestCase):
         with self.assertRaises(mv.errors.InvalidMeshError):
             mv.plane_voronoi([[[0, 0], [0, 0]], [[1, 1]]])
 
+    def test_sites_that_meet_are_refused(self):
+        far, line, box = [[9.0, 9.0]], [[-1.0, 0.5], [5.0, 0.5]], mv.PlaneShape(BOX)
+        ring_with_hole = mv.PlaneShape([BOX * 4, BOX + [6, 1]], fill="evenodd")
+        for sites, names in (
+            ([line, far, [[2.0, 0.0], [2.0, 1.0]]], "sites 0 and 2 cross or touch"),  # in a point that is an end of neither
+            ([far, line, [[2.0, 0.5], [2.0, 1.0]]], "sites 1 and 2 cross or touch"),  # an end on a line
+            ([line, line[::-1]], "sites 0 and 1 cross or touch"),
+            ([line, [[5.0, 0.5], [6.0, 3.0]]], "sites 0 and 1 cross or touch"),  # ends
+            ([line, [[2.0, 0.5]]], "sites 0 and 1 cross or touch"),  # a point on a line
+            ([far, [[3.0, 3.0]], [[3.0, 3.0]]], "sites 1 and 2 cross or touch"),
+            ([box, line], "sites 0 and 1 cross or touch"),
+            ([box, mv.PlaneShape(BOX + [3.5, 0.5])], "sites 0 and 1 cross or touch"),
+            ([far, box, [[1.0, 0.5]]], "site 2 lies in site 1"),
+            ([mv.PlaneShape(BOX / 2 + [1, 0.25]), box], "site 0 lies in site 1"),
+            # Of the two parts of a site, the second one lies in the other site.
+            ([mv.PlaneShape([BOX - [0, 9], BOX / 2 + [1, 0.25]]), box], "site 0 lies in site 1"),
+        ):
+            with self.subTest(names), self.assertRaisesRegex(mv.errors.InvalidMeshError, names):
+                mv.plane_voronoi(sites)
+        # Apart: in a hole, and a line that crosses itself, as far from a point as its nearest part.
+        mv.plane_voronoi([ring_with_hole, [[7.0, 1.5]]])
+        found = mv.plane_voronoi([[[0, 0], [2, 2], [2, 0], [0, 2]], [[8.0, 1.0]]])
+        t = found.arcs.t.mean(axis=1)
+        samples = found.at(np.arange(len(found.arcs)), t)
+        np.testing.assert_allclose(samples.radii, np.hypot(*(samples.points - [8, 1]).T), atol=1e-9)
+        np.testing.assert_allclose(samples.radii, distance_to(found.points, found.segments, samples.points), atol=1e-9)
+
 
 @unittest.skipUnless(TOOL, "MEDIAL_VK_TOOL names no tool")
 class AsTheTool(unittest.TestCase):

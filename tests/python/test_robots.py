@@ -1,6 +1,7 @@
 """Parts of an assembly as balls, and the least distance among links."""
 
 import os
+import pickle
 import subprocess
 import tempfile
 import unittest
@@ -60,6 +61,12 @@ class Parts(unittest.TestCase):
         np.testing.assert_array_equal(ball.radii, [0.25])
         self.assertEqual((ball.measures, len(ball.proved), ball.of_shape), (None, 0, True))
         self.assertAlmostEqual(ball.solid_volume, np.pi / 48)
+
+    def test_pickled(self):
+        again = mv.fit_parts(pickle.loads(pickle.dumps(self.parts)), total=16)
+        for fit, other in zip(self.fits, pickle.loads(pickle.dumps(again))):
+            np.testing.assert_array_equal(fit.centres, other.centres)
+            np.testing.assert_array_equal(fit.radii, other.radii)
 
     def test_other_numbers(self):
         per_link = mv.fit_parts(self.parts[:2], count_per_link=5, balls_only=True)

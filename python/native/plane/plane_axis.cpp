@@ -60,15 +60,22 @@ double longest_side_of(const std::vector<PlanePoint>& points) {
   return longest;
 }
 
+/// The sites that are shapes, and their numbers.
+struct ShapesOfSites {
+  std::vector<SharedShape> shapes;
+  std::vector<std::uint32_t> sites;
+};
+
 /// The points and segments of shapes, and of lines given by their points, with their numbers as sites.
-PlaneSites plane_sites_of(const py::list& elements, std::vector<SharedShape>& shapes) {
+PlaneSites plane_sites_of(const py::list& elements, ShapesOfSites& solid) {
   PlaneSites sites;
   std::uint32_t number = 0;
   for (const py::handle element : elements) {
     const auto first = static_cast<std::uint32_t>(sites.points.size());
     if (py::isinstance<ShapeHandle>(element)) {
-      shapes.push_back(element.cast<SharedShape>());
-      const PreparedShape& shape = shapes.back()->shape;
+      solid.shapes.push_back(element.cast<SharedShape>());
+      solid.sites.push_back(number);
+      const PreparedShape& shape = solid.shapes.back()->shape;
       sites.points.insert(sites.points.end(), shape.points.begin(), shape.points.end());
       for (const auto& [a, b] : shape.segments) sites.segments.push_back({first + a, first + b});
     } else {
@@ -84,9 +91,29 @@ PlaneSites plane_sites_of(const py::list& elements, std::vector<SharedShape>& sh
   return sites;
 }
 
+bool is_in_box(const PlanePoint& p, const ShapeReport& of) {
+  return of.lower[0] <= p[0] && p[0] <= of.upper[0] && of.lower[1] <= p[1] && p[1] <= of.upper[1];
+}
+
+/// That no shape holds a point of another site, whose lines do not meet those of the shape.
+Status check_outside(const PlaneSites& sites, const ShapesOfSites& solid, const std::stop_token& stop) {
+  for (std::size_t i = 0; i < sites.points.size(); ++i) {
+    const std::uint32_t site = sites.site_of_point[i];
+    if (stop.stop_requested()) return Error{ErrorCode::kInterrupted, "stopped"};
+    for (std::size_t k = 0; k < solid.shapes.size(); ++k) {
+      const ShapeHandle& shape = *solid.shapes[k];
+      if (solid.sites[k] == site || !is_in_box(sites.points[i], shape.shape.report)) continue;
+      if (!shape.boundary.nearest(sites.points[i]).is_inside) continue;
+      return Error{ErrorCode::kInvalidMesh, "site " + std::to_string(site) + " lies in site " +
+                                                std::to_string(solid.sites[k]) + "; sites in the plane must be apart"};
+    }
+  }
+  return {};
+}
+
 SharedAxis curves_between(const py::list& elements, py::dict values, const py::object& progress) {
-  std::vector<SharedShape> shapes;
-  PlaneSites sites = plane_sites_of(elements, shapes);
+  ShapesOfSites solid;
+  PlaneSites sites = plane_sites_of(elements, solid);
   PlaneVoronoiOptions made;
   Options options(std::move(values));
   options.read("object_angle", made.object_angle);
@@ -97,11 +124,17 @@ SharedAxis curves_between(const py::list& elements, py::dict values, const py::o
   const ProgressCallback on_progress = reported.of_stage("curves");
   const auto call = reported.call;
   PlaneAxis axis = value_of(run(
-      call, [sites, made, on_progress, call] { return find_plane_voronoi(sites, made, on_progress, call->token()); },
+      call,
+      [sites, solid, made, on_progress, call]() -> Result<PlaneAxis> {
+        Result<PlaneAxis> found = find_plane_voronoi(sites, made, on_progress, call->token());
+        if (!found) return found;
+        if (const Status status = check_outside(sites, solid, call->token()); !status) return status.error();
+        return found;
+      },
       progress));
   const double longest_side = longest_side_of(sites.points);
   return std::make_shared<PlaneAxisHandle>(
-      PlaneAxisHandle{std::move(axis), longest_side, std::move(sites), std::move(shapes)});
+      PlaneAxisHandle{std::move(axis), longest_side, std::move(sites), std::move(solid.shapes)});
 }
 
 py::dict nodes_dict(const std::vector<AxisNode>& nodes) {

@@ -45,6 +45,7 @@ py::dict part_fit_dict(const PartFit& fit, bool balls_only) {
   py::dict out;
   add_levels(fit.levels, fit.reach, out);
   out["count"] = fit.count;
+  out["aim"] = aim_name(fit.aim);
   out["solid_volume"] = number_or_none(fit.solid_volume);
   out["of_shape"] = fit.of_shape;
   out["spheres_volume"] = number_or_none(fit.spheres_volume);

@@ -105,7 +105,8 @@ struct PlaneAxisOptions {
 Result<PlaneAxis> find_plane_axis(const PreparedShape& shape, const PlaneAxisOptions& options = {},
                                   const ProgressCallback& progress = {}, const std::stop_token& stop = {});
 
-/// Points and segments, each with the number of the site that it belongs to. Segments may share ends, and do not cross.
+/// Points and segments, each with the number of the site that it belongs to. Segments may share ends, by index. Those
+/// of different sites do not meet otherwise.
 struct PlaneSites {
   std::vector<PlanePoint> points;
   std::vector<std::array<std::uint32_t, 2>> segments;
@@ -121,7 +122,8 @@ struct PlaneVoronoiOptions {
 
 /// The points at equal distance from two different sites at least, and from no site less (Section 2.6). Errors as
 /// above, and kInvalidMesh (an index out of range, a segment without length, a coordinate that is not finite, fewer
-/// than two sites).
+/// than two sites; two sites that cross or touch, or come as close as 2^-43 of the side of the square that is
+/// searched).
 Result<PlaneAxis> find_plane_voronoi(const PlaneSites& sites, const PlaneVoronoiOptions& options = {},
                                      const ProgressCallback& progress = {}, const std::stop_token& stop = {});
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "medial_vk/plane_axis.h"
 
@@ -128,6 +130,73 @@ TEST(PlaneVoronoi, OfSegmentsIsThatOfTheirDistances) {
     }
     EXPECT_GT(crossings, 10);
   }
+}
+
+double turn(PlanePoint a, PlanePoint b, PlanePoint c) {
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+/// Of two segments in general position.
+bool cross(const PlaneSites& sites, std::size_t i, std::size_t k) {
+  const PlanePoint a = sites.points[sites.segments[i][0]], b = sites.points[sites.segments[i][1]];
+  const PlanePoint c = sites.points[sites.segments[k][0]], d = sites.points[sites.segments[k][1]];
+  return turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0;
+}
+
+TEST(PlaneVoronoi, SitesThatCrossAreRefused) {
+  std::mt19937 random(3);
+  const auto uniform = [&] { return static_cast<double>(random()) * 0x1p-32; };
+  int refused = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    PlaneSites sites;
+    std::vector<std::string> crossing;
+    for (std::uint32_t site = 0; site < 12; ++site) {
+      const double x = 5 * uniform(), y = 5 * uniform(), along = uniform(), up = uniform();
+      add_segment(sites, {x, y}, {x + along, y + up - 0.5}, site);
+    }
+    for (std::size_t i = 0; i < sites.segments.size(); ++i) {
+      for (std::size_t k = i + 1; k < sites.segments.size(); ++k) {
+        if (!cross(sites, i, k)) continue;
+        crossing.push_back("sites " + std::to_string(i) + " and " + std::to_string(k) +
+                           " cross or touch; sites in the plane must be apart");
+      }
+    }
+    const Result<PlaneAxis> diagram = find_plane_voronoi(sites);
+    ASSERT_EQ(diagram.ok(), crossing.empty()) << "trial " << trial;
+    if (diagram.ok()) continue;
+    ++refused;
+    EXPECT_EQ(diagram.error().code, ErrorCode::kInvalidMesh);
+    EXPECT_NE(std::ranges::find(crossing, diagram.error().message), crossing.end()) << diagram.error().message;
+  }
+  EXPECT_TRUE(10 < refused && refused < 50) << refused;
+}
+
+TEST(PlaneVoronoi, ALineMayCrossItself) {
+  PlaneSites sites;
+  add_segment(sites, {0, 0}, {2, 2}, 0);
+  add_segment(sites, {0, 2}, {2, 0}, 0);
+  add_point(sites, {5, 1}, 1);
+  const PlaneAxis diagram = diagram_of(sites);
+  ASSERT_FALSE(diagram.arcs.empty());
+  for (const AxisNode& node : diagram.nodes) {
+    EXPECT_NEAR(std::hypot(node.point[0] - 5, node.point[1] - 1), node.radius, 1e-9);
+  }
+}
+
+// So many boxes overlap that cells find what meets.
+TEST(PlaneVoronoi, SitesThatTouchAmongThousandsOfLongOnesAreRefused) {
+  PlaneSites sites;
+  constexpr std::uint32_t kRays = 1 << 14;
+  for (std::uint32_t i = 0; i < kRays; ++i) {
+    const double angle = 6.283 * i / kRays;
+    add_segment(sites, {std::cos(angle), std::sin(angle)}, {3 * std::cos(angle), 3 * std::sin(angle)}, i);
+  }
+  sites.points.push_back({2, 0});  // on the first ray
+  sites.site_of_point.push_back(kRays);
+  EXPECT_EQ(find_plane_voronoi(sites).error().message,
+            "sites 0 and " + std::to_string(kRays) + " cross or touch; sites in the plane must be apart");
+  sites.points.back() = {0, 0};
+  EXPECT_TRUE(find_plane_voronoi(sites).ok());
 }
 
 TEST(PlaneVoronoi, BadSitesAreRefused) {

@@ -9,6 +9,7 @@
 #include "base/loop_watch.h"
 #include "plane/axis/branches.h"
 #include "plane/diagram/diagram.h"
+#include "plane/shapes/meetings.h"
 #include "plane/sites/frame.h"
 
 namespace medial_vk {
@@ -146,10 +147,25 @@ Status check_sites(const PlaneSites& sites) {
   return {};
 }
 
+/// The proofs of the diagram presume that different sites have no point in common. A site may meet itself: no curve
+/// between two sites passes there.
+Status check_apart(const SiteSet& sites, unsigned threads, const LoopWatch& watch) {
+  for (const Meeting& m : find_meetings(sites, threads, watch)) {
+    const std::uint32_t a = sites.owner(m.first), b = sites.owner(m.second);
+    if (a == b) continue;
+    return Error{ErrorCode::kInvalidMesh, "sites " + std::to_string(std::min(a, b)) + " and " +
+                                              std::to_string(std::max(a, b)) +
+                                              " cross or touch; sites in the plane must be apart"};
+  }
+  return {};
+}
+
 Result<PlaneAxis> voronoi_of_sites(const PlaneSites& given, const PlaneVoronoiOptions& options,
                                    const ProgressCallback& progress, const std::stop_token& stop) {
   const auto [frame, half] = extent_of(given.points, options.margin, false);
   const SiteSet sites(in_units(given.points, frame), given.segments, given.site_of_point, given.site_of_segment);
+  const LoopWatch watch(progress, stop);
+  if (const Status status = check_apart(sites, options.threads, watch); !status) return status.error();
   DiagramQuery query;
   query.wanted = Wanted::kBetweenOwners;
   query.object_angle = std::max(options.object_angle, kLeastAngle);

@@ -1,12 +1,10 @@
 #include "plane/shapes/arrangement.h"
 
 #include <algorithm>
-#include <span>
 #include <utility>
 
 #include "base/disjoint_sets.h"
-#include "plane/diagram/cell_tree.h"
-#include "plane/shapes/close_edges.h"
+#include "plane/shapes/meetings.h"
 #include "plane/shapes/orientation.h"
 
 namespace medial_vk::plane {
@@ -23,75 +21,6 @@ struct Cut {
   std::uint32_t point;
 
   auto operator<=>(const Cut&) const = default;  // NOLINT(modernize-use-nullptr): false alarm of clang-tidy 14
-};
-
-/// What two edges, or an edge and a point, have in common.
-struct Meeting {
-  std::uint32_t first, second;                       // sites
-  auto operator<=>(const Meeting&) const = default;  // NOLINT(modernize-use-nullptr): false alarm of clang-tidy 14
-};
-
-/// The meetings of edges, and of their ends with other edges and ends.
-class Meetings {
- public:
-  Meetings(const SiteSet& sites, unsigned threads, const LoopWatch& watch) : sites_(sites) {
-    if (const auto pairs = close_edges(sites, 2 * kSnap, threads, watch)) {
-      for (const auto& [a, b] : *pairs) add_edges(a, b);
-    } else {
-      add_from_cells(threads, watch);
-    }
-    std::ranges::sort(all_);
-    all_.erase(std::unique(all_.begin(), all_.end()), all_.end());
-  }
-
-  const std::vector<Meeting>& all() const { return all_; }
-
- private:
-  void add_edges(std::uint32_t a, std::uint32_t b) {
-    const auto &ends = sites_.segment(a).ends, &other_ends = sites_.segment(b).ends;
-    add(std::array{a, b, ends[0], ends[1], other_ends[0], other_ends[1]});
-  }
-
-  /// Sites that meet are both nearest where they do.
-  void add_from_cells(unsigned threads, const LoopWatch& watch) {
-    DiagramQuery query;
-    query.wanted = Wanted::kBothSides;
-    query.object_angle = 2;  // above every angle: cells without boundary are dismissed
-    query.slack = 2 * kSnap;
-    query.threads = threads;
-    const CellTree tree = CellTree::build(sites_, query, watch);
-    for (std::uint32_t node = 0; node < tree.size(); ++node) {
-      if (tree.state(node) == CellState::kLeaf || tree.state(node) == CellState::kClustered) add(tree.cell(node).sites);
-    }
-  }
-
-  void add(std::span<const std::uint32_t> list) {
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      for (std::size_t k = i + 1; k < list.size(); ++k) {
-        const std::uint32_t a = std::min(list[i], list[k]), b = std::max(list[i], list[k]);
-        if (a != b && meet(a, b)) all_.push_back({a, b});
-      }
-    }
-  }
-
-  bool meet(std::uint32_t a, std::uint32_t b) const {
-    if (sites_.are_joined(a, b)) return false;
-    if (sites_.is_point(b)) return distance(sites_.point(a), sites_.point(b)) <= 2 * kSnap;
-    if (sites_.is_point(a)) return sites_.distance_to(b, sites_.point(a)) <= kSnap;
-    return cross(sites_.segment(a).ends, sites_.segment(b).ends);
-  }
-
-  /// In a point that is an end of neither.
-  bool cross(const std::array<std::uint32_t, 2>& a, const std::array<std::uint32_t, 2>& b) const {
-    for (const std::uint32_t end : a) {
-      if (end == b[0] || end == b[1]) return false;
-    }
-    const Vec2 p = sites_.point(a[0]), q = sites_.point(a[1]), r = sites_.point(b[0]), s = sites_.point(b[1]);
-    return orientation(p, q, r) * orientation(p, q, s) < 0 && orientation(r, s, p) * orientation(r, s, q) < 0;
-  }
-
-  const SiteSet& sites_;
-  std::vector<Meeting> all_;
 };
 
 /// Edges with the lesser end first, each once, those of a single point left out.
@@ -125,12 +54,12 @@ class Arranger {
   bool round(unsigned threads, const LoopWatch& watch) {
     unite_points();
     const SiteSet sites = sites_in_use();
-    const Meetings meetings(sites, threads, watch);
-    if (meetings.all().empty()) return false;
+    const std::vector<Meeting> meetings = find_meetings(sites, threads, watch);
+    if (meetings.empty()) return false;
     merged_.reset(result_.points.size());
     cuts_.clear();
     const auto old_points = static_cast<std::uint32_t>(result_.points.size());
-    for (const Meeting& m : meetings.all()) apply(sites, m);
+    for (const Meeting& m : meetings) apply(sites, m);
     cut_edges(old_points);
     return true;
   }

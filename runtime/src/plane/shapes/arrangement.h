@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/loop_watch.h"
+#include "plane/shapes/meetings.h"
 #include "plane/sites/frame.h"
 
 namespace medial_vk::plane {
@@ -24,9 +25,6 @@ struct Arrangement {
   std::vector<CountedEdge> edges;  ///< Sorted; each pair of ends once, the lesser first; `times` may be 0.
   std::size_t merged_points = 0, crossings = 0, touching_points = 0;
 };
-
-/// Two points this close are one, and a point this close to a segment lies on it. Of coordinates within [-1/2, 1/2].
-inline constexpr double kSnap = 0x1p-44;
 
 /// Points at crossings are representable in `frame`. Throws std::bad_alloc and LoopStopped.
 Arrangement arrange(std::vector<Vec2> points, const std::vector<CountedEdge>& edges, const Frame& frame,

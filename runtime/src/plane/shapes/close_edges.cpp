@@ -40,21 +40,24 @@ Vec2 main_direction(const SiteSet& sites) {
   return {std::cos(angle), std::sin(angle)};
 }
 
-/// Boxes of segments in an order along a curve, in groups, groups of groups, and so on. Their sides lie in the main
-/// direction of the segments and across it, so that long parallel ones have thin boxes.
+/// Boxes of segments, and of points without segments, in an order along a curve, in groups, groups of groups, and so
+/// on. Their sides lie in the main direction of the segments and across it, so that long parallel ones have thin boxes.
 class BoxLevels {
  public:
   BoxLevels(const SiteSet& sites, double gap)
       : sites_(sites), gap_(gap), box_gap_(gap + kTurnRounding), direction_(main_direction(sites)) {
-    const std::uint32_t count = sites.size() - sites.points();
-    std::vector<Point> middles;
-    middles.reserve(count);
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const Segment& s = sites.segment(sites.points() + i);
-      const Vec2 middle = s.begin + (s.length / 2) * s.along;
-      middles.push_back({turned(middle).x, turned(middle).y, 0});
+    std::vector<std::uint32_t> listed;
+    listed.reserve(sites.size());
+    for (std::uint32_t site = 0; site < sites.size(); ++site) {
+      if (!sites.is_point(site) || sites.segments_of(site).empty()) listed.push_back(site);
     }
-    for (const std::uint32_t i : order_along_curve(middles)) edges_.push_back(sites.points() + i);
+    std::vector<Point> middles;
+    middles.reserve(listed.size());
+    for (const std::uint32_t site : listed) {
+      const Vec2 middle = turned(middle_of(site));
+      middles.push_back({middle.x, middle.y, 0});
+    }
+    for (const std::uint32_t i : order_along_curve(middles)) edges_.push_back(listed[i]);
     for (const std::uint32_t edge : edges_) boxes_.push_back(box_of_edge(edge));
     levels_.push_back(grouped(boxes_, kEdgesOfLeaf));
     while (levels_.back().size() > 1) levels_.push_back(grouped(levels_.back(), kChildren));
@@ -83,10 +86,19 @@ class BoxLevels {
 
  private:
   Vec2 turned(Vec2 x) const { return {dot(direction_, x), cross(direction_, x)}; }
+  Vec2 middle_of(std::uint32_t site) const {
+    if (sites_.is_point(site)) return sites_.point(site);
+    const Segment& s = sites_.segment(site);
+    return s.begin + (s.length / 2) * s.along;
+  }
   std::size_t end_of(std::size_t leaf) const { return std::min((leaf + 1) * kEdgesOfLeaf, edges_.size()); }
 
   Box box_of_edge(std::uint32_t edge) const {
     Box box;
+    if (sites_.is_point(edge)) {
+      box.add(turned(sites_.point(edge)));
+      return box;
+    }
     for (const std::uint32_t end : sites_.segment(edge).ends) box.add(turned(sites_.point(end)));
     return box;
   }
@@ -110,7 +122,10 @@ class BoxLevels {
   }
 
   bool is_beside(std::uint32_t edge, std::uint32_t line) const {
-    const Segment &s = sites_.segment(edge), &l = sites_.segment(line);
+    if (sites_.is_point(line)) return false;
+    const Segment& l = sites_.segment(line);
+    if (sites_.is_point(edge)) return std::fabs(l.height(sites_.point(edge), Side::kLeft)) > gap_;
+    const Segment& s = sites_.segment(edge);
     const double a = l.height(sites_.point(s.ends[0]), Side::kLeft), b = l.height(sites_.point(s.ends[1]), Side::kLeft);
     return std::min(a, b) > gap_ || std::max(a, b) < -gap_;
   }
@@ -119,7 +134,7 @@ class BoxLevels {
   const SiteSet& sites_;
   const double gap_, box_gap_;
   const Vec2 direction_;
-  std::vector<std::uint32_t> edges_;  // sites
+  std::vector<std::uint32_t> edges_;  // sites: segments, and points without segments
   std::vector<Box> boxes_;
   std::vector<std::vector<Box>> levels_;
 };

@@ -4,6 +4,7 @@
 
 #include "medial_vk/fatness.h"
 #include "medial_vk/version.h"
+#include "native/analyses/analysis_handle.h"
 #include "native/arrays.h"
 #include "native/calls.h"
 #include "native/handles.h"
@@ -16,14 +17,6 @@ namespace medial_vk::python {
 namespace {
 
 namespace py = pybind11;
-
-/// An analysis, and all that its files say of how it was made.
-struct AnalysisHandle {
-  IndexedMesh mesh;
-  AnalysisOptions options;
-  DeviceDescription device;
-  Analysis result;
-};
 
 void read_sheet_options(Options& options, AnalysisOptions& made) {
   bool sheets = true;
@@ -215,6 +208,14 @@ py::bytes page(const std::shared_ptr<AnalysisHandle>& handle, const std::string&
   })));
 }
 
+py::bytes state_of(const std::shared_ptr<AnalysisHandle>& handle) {
+  return py::bytes(value_of(run([handle]() -> Result<std::string> { return encode_analysis(*handle); })));
+}
+
+std::shared_ptr<AnalysisHandle> restored(const MeshHandle& mesh, const std::string& state) {
+  return value_of(run([mesh = mesh.mesh, state] { return decode_analysis(mesh, state); }));
+}
+
 py::dict fatness(const std::shared_ptr<AnalysisHandle>& handle, py::handle array, unsigned threads) {
   const std::vector<double> angles = numbers_of(array, "object_angles");
   const std::vector<Fatness> found = value_of(run([handle, angles, threads] {
@@ -239,8 +240,10 @@ void bind_analysis(py::module_& module) {
       .def("encode", &encode)
       .def("header", &header_dict)
       .def("fatness", &fatness)
-      .def("page", &page);
+      .def("page", &page)
+      .def("state", &state_of);
   module.def("analyse", &analyse_mesh);
+  module.def("restore_analysis", &restored);
 }
 
 }  // namespace medial_vk::python
