@@ -15,6 +15,8 @@ namespace {
 /// The radii give way once for the lack of planes, and again where the smaller hull has other planes.
 constexpr int kMostShrinks = 4;
 constexpr double kGapTolerance = 1e-3;  // of the diagonal
+/// Closed forms have errors of some units in the last place of the greatest coordinate.
+double gap_slack(const Solid& solid) { return 4 * solid.rounding(); }
 
 BallHull shrunk(BallHull hull, double by) {
   for (std::uint32_t i = 0; i < hull.count; ++i) hull.corners[i].radius -= by;
@@ -109,9 +111,10 @@ Bounds measure_hull_gap(const Solid& solid, std::span<const BallHull> hulls, con
   };
   const SearchLimits limits = {.tolerance = kGapTolerance * solid.diagonal(), .threads = threads};
   const Bounds found = bound_supremum(std::move(parts), 0, limits, evaluate, split_part);
-  // Closed forms have errors of some units in the last place of the greatest coordinate.
-  const double slack = 4 * solid.rounding();
+  const double slack = gap_slack(solid);
   return {std::max(0.0, found.lower - slack), found.upper + slack};
 }
+
+double hull_gap_width(const Solid& solid) { return kGapTolerance * solid.diagonal() + 2 * gap_slack(solid); }
 
 }  // namespace medial_vk

@@ -24,7 +24,9 @@ struct FreedHulls {
 FreedHulls free_hulls(const Solid& solid, std::span<const BallHull> hulls, const Threads& threads);
 
 /// Bounds of the greatest distance from a point of the boundary to the hulls, at least one, in mesh units, 0 in them:
-/// by branch and bound, to a thousandth of the diagonal. Throws Stopped.
+/// by branch and bound, to hull_gap_width() unless that takes too many parts of triangles. Throws Stopped.
 Bounds measure_hull_gap(const Solid& solid, std::span<const BallHull> hulls, const Threads& threads);
+/// The difference of these bounds: a thousandth of the diagonal, and rounding.
+double hull_gap_width(const Solid& solid);
 
 }  // namespace medial_vk

@@ -51,6 +51,11 @@ std::size_t parameters_of(HullChoice choice) {
   }
 }
 
+/// The width of the bounds of the covered volume where this share is uncovered, as a share of the solid's.
+double derived_width(double uncovered) {
+  return std::clamp(kWidthOfUncovered * uncovered, kLeastWidth, kGreatestWidth);
+}
+
 Status check_options(const HullFitOptions& options, const Solid& solid) {
   const auto usage = [](const char* message) { return Error{ErrorCode::kUsage, message}; };
   const bool has_goal = options.count > 0 || options.parameters > 0 || options.error > 0 || options.max_gap > 0;
@@ -84,15 +89,16 @@ class HullFitter {
   }
 
  private:
-  /// The best set of one kind: every mix of kinds that is tried.
+  /// The best set of one kind: every mix of kinds that is tried. One kind may not fit where another does.
   Result<HullFit> best_of_kinds() {
     std::optional<HullFit> best;
     Error last;
     for (const HullChoice kind : kKinds) {
       Result<HullFit> found = fit(kind);
       if (!found) {
-        if (found.error().code != ErrorCode::kUsage) return found.error();
-        last = found.error();
+        const bool is_unmet = found.error().code == ErrorCode::kUsage;
+        if (!is_unmet && found.error().code != ErrorCode::kInvalidMesh) return found.error();
+        if (is_unmet || last.message.empty()) last = found.error();
         continue;
       }
       if (!best || is_better(found.value(), *best)) best = std::move(found).value();
@@ -217,8 +223,10 @@ class HullFitter {
     SphereFitOptions options;
     const bool by_number = options_.error == 0 && options_.max_gap == 0;
     options.count = by_number || options_.count > 0 || options_.parameters > 0 ? most : 0;
-    options.error = options_.error;
-    options.max_gap = options_.max_gap;
+    // The bounds of volume and gap below have a width, and must meet the goals, too.
+    const double width = options_.width > 0 ? options_.width : derived_width(options_.error);
+    options.error = std::max(0.5 * options_.error, options_.error - width);
+    options.max_gap = std::max(0.5 * options_.max_gap, options_.max_gap - hull_gap_width(solid_));
     options.resolution = options_.resolution;
     options.threads = options_.threads;
     options.balls_only = by_number;
@@ -230,9 +238,12 @@ class HullFitter {
     HullFit fit;
     for (const Ball& ball : found.value().levels.back()) fit.hulls.push_back(hull_of(ball));
     FreedHulls freed = free_hulls(solid_, fit.hulls, threads_);
+    if (freed.hulls.empty()) return Error{ErrorCode::kInvalidMesh, "no ball fits into the solid with a proof"};
     fit.hulls = std::move(freed.hulls);
     fit.greatest_shrink = freed.greatest_shrink;
-    return with_measures(std::move(fit));
+    Result<HullFit> measured = with_measures(std::move(fit));
+    if (!measured || meets_goals(measured.value())) return measured;
+    return unmet(measured.value());
   }
 
   Result<HullFit> with_measures(HullFit fit) {
@@ -260,8 +271,7 @@ class HullFitter {
     options.threads = options_.threads;
     const Result<Bounds> covered = measure_hull_union(fit.hulls, options, stop_);
     if (options_.width > 0 || !covered || !fit.solid_volume) return covered;
-    const double uncovered = *fit.solid_volume - covered.value().upper;
-    options.width = std::max(kLeastWidth * scale, kWidthOfUncovered * uncovered);
+    options.width = scale * derived_width(1 - covered.value().upper / scale);
     return options.width < kGreatestWidth * scale ? measure_hull_union(fit.hulls, options, stop_) : covered;
   }
 

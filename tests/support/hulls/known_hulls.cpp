@@ -228,7 +228,7 @@ ConvexPart KnownSolid::random_part(std::mt19937_64& random) const {
   if (notch_.empty() || random() % 4 == 0) return cover_[random() % cover_.size()];
   for (;;) {
     const std::size_t corner = random() % notch_.size();
-    const auto [x, y] = notch_[corner];
+    const double x = notch_[corner][0], y = notch_[corner][1];
     const double angle = uniform(-std::numbers::pi, std::numbers::pi, random);
     const double nx = std::cos(angle), ny = std::sin(angle);
     const auto is_beyond = [&](const std::array<double, 2>& other) {

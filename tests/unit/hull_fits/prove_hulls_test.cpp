@@ -127,6 +127,24 @@ TEST(ProveHulls, AHullAlongAFaceIsNotProved) {
   }
 }
 
+// Where the other face of the notch is missing, no triangle across the hull meets it at the edge of the notch.
+TEST(ProveHulls, AHullAlongAFaceBesideAnOpeningIsNotProved) {
+  Mesh open = test::make_l_shape(1, 0.25, 0.5);
+  std::erase_if(open.triangles, [&](const Triangle& t) {
+    const auto is_there = [&](std::uint32_t v) { return open.vertices[v][1] == 0.25 && open.vertices[v][0] >= 0.25; };
+    return is_there(t[0]) && is_there(t[1]) && is_there(t[2]);
+  });
+  const IndexedMesh mesh = mesh_of_solid(open);
+  ASSERT_EQ(mesh.prepared().report.open_edges, 4u);
+  for (const double x : {0.25 - 0x1p-53, 0.25, 0.25 + 0x1p-53}) {
+    const Ball start = {{x, 0.0625, 0.25}, 0};
+    EXPECT_TRUE(is_proved(mesh, hull_of(start)));
+    for (const double y : {0.25, 0.3, 0.5, 0.75, 1.5}) {
+      EXPECT_FALSE(is_proved(mesh, hull_of(start, Ball{{x, y, 0.25}, 0}))) << y;
+    }
+  }
+}
+
 TEST(ProveHulls, OfNestedAndEqualBalls) {
   const IndexedMesh mesh = mesh_of_solid(test::make_box({1, 1, 1}));
   const Ball large = {{0.5, 0.5, 0.5}, 0.375}, small = {{0.625, 0.5, 0.5}, 0.125}, tiny = {{0.5, 0.5, 0.5}, 0};
