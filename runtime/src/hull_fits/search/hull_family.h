@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -14,9 +15,11 @@ namespace medial_vk {
 /// set of n hulls is the better of two: the first n of the next top, in the order of their gains, and the hulls of the
 /// top before with those that the search added until there were n. Both grow with n, and the hulls of a top are at
 /// least as good as those that have grown to its number, so the volume never falls, as estimated by the lines of the
-/// search.
+/// search. At 16 hulls, a second search that was not improved before contends with the first, and the better one goes
+/// on: hulls that were improved as few leave less room for many.
 class HullFamily {
  public:
+  /// Keeps references to the solid and the medial balls.
   HullFamily(const Solid& solid, std::span<const Ball> medial, const HullShape& shape, const HullSearchEffort& effort,
              const Threads& threads);
 
@@ -35,10 +38,16 @@ class HullFamily {
   };
 
   void search_up_to(std::size_t count, const std::function<void(double)>& progress);
+  void note_growth(Top& top) const;
+  void improve(HullSearch& search) const;
+  void contend(std::size_t count);
 
-  HullSearch search_;
-  Point lower_, upper_;
+  const Solid& solid_;
+  std::span<const Ball> medial_;
+  HullShape shape_;
   HullSearchEffort effort_;
+  Threads threads_;
+  std::unique_ptr<HullSearch> search_;
   std::vector<Top> tops_;
   bool has_ended_ = false;
 };
