@@ -49,15 +49,15 @@ double support(const BallHull& hull, const Point& direction) {
 
 Point support_point(const BallHull& hull, const Point& direction) {
   const double size = length(direction);
-  const Ball* found = nullptr;
-  double greatest = 0;
-  for (const Ball& ball : hull.balls()) {
+  Ball found = hull.corners[0];
+  double greatest = dot(found.centre, direction) + size * found.radius;
+  for (const Ball& ball : hull.balls().subspan(1)) {
     const double reach = dot(ball.centre, direction) + size * ball.radius;
-    if (found != nullptr && reach <= greatest) continue;
-    found = &ball;
+    if (reach <= greatest) continue;
+    found = ball;
     greatest = reach;
   }
-  return found->centre + (found->radius / size) * direction;
+  return found.centre + (found.radius / size) * direction;
 }
 
 HullBounds bounds_of(const BallHull& hull) {

@@ -132,6 +132,7 @@ class UnionMeasure {
         open += gap_of(i);
       }
     }
+    if (divided_.empty()) return;
     const double rest = options_.width - kept_gap_.value();
     const double greatest = open <= rest ? std::numeric_limits<double>::infinity() : greatest_kept_gap(rest);
     std::size_t count = 0;

@@ -131,6 +131,15 @@ TEST(HullUnion, HoldsFarFromTheOrigin) {
   expect_between(measured({slab}, 0.005 * volume), volume, 1e-12);
 }
 
+// Where coordinates have too few digits the bounds are farther apart than asked, and still hold.
+TEST(HullUnion, BoundsAreAsCloseAsRoundingAllows) {
+  const BallHull ball = hull_of({{1e15, 0, 0}, 1});
+  const Result<Bounds> bounds = measure_hull_union({&ball, 1}, {0.001, 1});
+  ASSERT_TRUE(bounds.ok()) << bounds.error().message;
+  expect_between(bounds.value(), volume_of(ball), 0);
+  EXPECT_GT(bounds.value().upper - bounds.value().lower, 0.001);
+}
+
 TEST(HullUnion, NamesWhatItRefuses) {
   const BallHull ball = hull_of({{0, 0, 0}, 1});
   const auto message_of = [](const std::vector<BallHull>& hulls, double width) {
