@@ -64,7 +64,7 @@ class BalancingSteps : public BallSteps {
   Status replace(DynamicUnion& balls, std::uint32_t slot, const Ball& to) override {
     find_others(balls, slot,
                 length(to.centre - balls.ball(slot).centre) + std::fabs(to.radius - balls.ball(slot).radius));
-    gained_ += difference_.change(balls.ball(slot), others_) - difference_.change(to, others_);
+    gained_ -= difference_.change(balls.ball(slot), to, others_);
     return balls.shift(slot, to);
   }
 
@@ -110,7 +110,7 @@ class BalancingSteps : public BallSteps {
 
   /// Among the others that propose() has found: no step is longer than its limit there.
   Result<double> try_move(DynamicUnion& balls, std::uint32_t slot, const Ball& to) override {
-    const double gain = difference_.change(balls.ball(slot), others_) - difference_.change(to, others_);
+    const double gain = -difference_.change(balls.ball(slot), to, others_);
     if (!(gain > 0)) return 0.0;
     if (Status status = balls.shift(slot, to); !status.ok()) return status.error();
     gained_ += gain;

@@ -21,24 +21,32 @@ class SymmetricDifference {
 
   /// The change by this ball of the value for `others`: the volume that only this ball holds outside the solid, less
   /// that inside. Mesh units cubed.
-  double change(const Ball& ball, std::span<const Ball> others);
+  double change(const Ball& ball, std::span<const Ball> others) { return change({ball.centre, 0}, ball, others); }
+  /// The change of the value where a ball among `others` becomes another one: of each line, only what lies between the
+  /// ends of their stretches is examined. Mesh units cubed.
+  double change(const Ball& from, const Ball& to, std::span<const Ball> others);
 
  private:
   using Stretch = SolidLines::Stretch;
   /// The disc in which a plane of lines meets a ball.
   struct Disc {
     double across, along;  // its centre
-    double squared;        // of its radius; not positive: empty
+    double squared;        // of its radius
   };
-  static Disc slice(const Ball& ball, std::size_t axis, std::size_t across, double off);
-  double change_along(const Ball& ball, std::span<const Ball> others, std::size_t axis);
-  static std::ptrdiff_t first_line(const SolidLines::Bundle& bundle, std::size_t k, double from);
-  void find_left(const Disc& ball, double x);
-  void take_away(const Stretch& taken);
+  /// Where the line at `across` meets others of the row.
+  struct Line {
+    double across;
+    std::span<const Stretch> inside;
+  };
+  class InRow;
+
+  double change_along(const Ball& from, const Ball& to, std::span<const Ball> others, std::size_t axis);
+  void slice_others(std::span<const Ball> others, std::size_t axis, double y);
+  double left_between(double from, double to, const Line& line, std::size_t& hider);
 
   SolidLines lines_;
-  std::vector<Disc> in_row_;          // of the other balls
-  std::vector<Stretch> left_, next_;  // of a line: the stretches that only the ball holds
+  std::vector<Disc> in_row_;    // of the other balls
+  std::vector<Stretch> taken_;  // of a line, by other balls
 };
 
 }  // namespace medial_vk
