@@ -1,6 +1,8 @@
 // The contribution of a ball to the volume between a solid and a union of balls.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -22,31 +24,29 @@ class SymmetricDifference {
   /// The change by this ball of the value for `others`: the volume that only this ball holds outside the solid, less
   /// that inside. Mesh units cubed.
   double change(const Ball& ball, std::span<const Ball> others) { return change({ball.centre, 0}, ball, others); }
-  /// The change of the value where a ball among `others` becomes another one: of each line, only what lies between the
-  /// ends of their stretches is examined. Mesh units cubed.
+  /// The change of the value where a ball among `others` becomes another one. Only what lies between the two spheres is
+  /// examined, and blocks of lines where one of the others holds all of it are passed over. Mesh units cubed.
   double change(const Ball& from, const Ball& to, std::span<const Ball> others);
 
  private:
-  using Stretch = SolidLines::Stretch;
-  /// The disc in which a plane of lines meets a ball.
-  struct Disc {
-    double across, along;  // its centre
-    double squared;        // of its radius
+  class Walk;
+  /// Memory of a call.
+  struct Scratch {
+    struct Coarse {
+      float x, y, z, least_squared, greatest_squared;  // of the radius
+    };
+    struct Distances {
+      float near, far;  // squared
+    };
+    std::vector<Ball> others;
+    std::vector<Coarse> coarse;  // of the others
+    std::vector<Distances> distances;
+    std::vector<std::uint32_t> met;          // numbers of others that meet a block
+    std::vector<SolidLines::Stretch> taken;  // of a line, by others
   };
-  /// Where the line at `across` meets others of the row.
-  struct Line {
-    double across;
-    std::span<const Stretch> inside;
-  };
-  class InRow;
-
-  double change_along(const Ball& from, const Ball& to, std::span<const Ball> others, std::size_t axis);
-  void slice_others(std::span<const Ball> others, std::size_t axis, double y);
-  double left_between(double from, double to, const Line& line, std::size_t& hider);
 
   SolidLines lines_;
-  std::vector<Disc> in_row_;    // of the other balls
-  std::vector<Stretch> taken_;  // of a line, by other balls
+  Scratch scratch_;
 };
 
 }  // namespace medial_vk
