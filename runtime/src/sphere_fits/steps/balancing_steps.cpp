@@ -1,6 +1,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -92,11 +94,13 @@ class BalancingSteps : public BallSteps {
     const Ball& ball = balls.ball(slot);
     find_others(balls, slot, 3 * step);
     heights_.clear();
+    KnownHeights& known = known_heights(slot, ball);
     for (std::size_t k = 0; k < kSpherePoints; ++k) {
       const Point normal = spiral_point(k, kSpherePoints);
       const Point at = ball.centre + ball.radius * normal;
       if (is_in_other(at)) continue;
-      heights_.push_back({normal, height_at(at, normal)});
+      if (std::isnan(known.heights[k])) known.heights[k] = height_at(at, normal);
+      heights_.push_back({normal, known.heights[k]});
     }
     if (heights_.empty()) return std::optional<Ball>();
     const Change change = least_absolute(heights_, step);
@@ -115,6 +119,23 @@ class BalancingSteps : public BallSteps {
     if (Status status = balls.shift(slot, to); !status.ok()) return status.error();
     gained_ += gain;
     return gain;
+  }
+
+  /// Heights over the points of a sphere; NaN: not known yet.
+  struct KnownHeights {
+    Ball ball = {{}, -1};
+    std::array<double, kSpherePoints> heights = {};
+  };
+  /// Most steps are refused, and the next one of the ball begins on the same sphere. A few balls take steps in turn.
+  KnownHeights& known_heights(std::uint32_t slot, const Ball& ball) {
+    constexpr std::size_t kBalls = 64;
+    known_.resize(kBalls);
+    KnownHeights& known = known_[slot % kBalls];
+    if (known.ball.centre != ball.centre || known.ball.radius != ball.radius) {
+      known.ball = ball;
+      known.heights.fill(std::numeric_limits<double>::quiet_NaN());
+    }
+    return known;
   }
 
   bool is_in_other(const Point& at) const {
@@ -151,6 +172,7 @@ class BalancingSteps : public BallSteps {
   double gained_ = 0;
   std::vector<Ball> others_;
   std::vector<Height> heights_;
+  std::vector<KnownHeights> known_;
 };
 
 }  // namespace

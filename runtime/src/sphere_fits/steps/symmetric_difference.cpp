@@ -77,11 +77,8 @@ class SymmetricDifference::Walk {
     to_ = turned(to);
     const double reach = length(to.centre - from.centre) + from.radius + to.radius;
     scratch_.others.clear();
-    scratch_.coarse.clear();
-    for (const Ball& other : others) {
-      scratch_.others.push_back(turned(other));
-      scratch_.coarse.push_back(coarse(scratch_.others.back(), reach));
-    }
+    for (const Ball& other : others) scratch_.others.push_back(turned(other));
+    round_others(reach);
   }
 
   /// The sum of lengths over all lines.
@@ -101,21 +98,31 @@ class SymmetricDifference::Walk {
   }
 
  private:
-  static constexpr std::ptrdiff_t kSide = 6;
+  static constexpr std::ptrdiff_t kSide = 4;
 
   Ball turned(const Ball& ball) const {
     return {{ball.centre[axes_[0]], ball.centre[axes_[1]], ball.centre[axes_[2]]}, ball.radius};
   }
 
-  /// In float, relative to the centre of from_. Boxes lie within `reach` of it. Centres and boxes, and their differences
+  /// To float, relative to the centre of from_. Blocks lie within `reach` of it. Centres and blocks, and their differences
   /// and sums, are rounded by 4 · 2^-24 of M, the distance of the centre plus the reach, in each coordinate: squares of
   /// distances are rounded by less than 2^-18 M^2.
-  using Coarse = Scratch::Coarse;
-  Coarse coarse(const Ball& other, double reach) const {
-    const Point apart = other.centre - from_.centre;
-    const double most = length(apart) + reach, error = 0x1p-18 * most * most, squared = other.radius * other.radius;
-    return {static_cast<float>(apart[0]), static_cast<float>(apart[1]), static_cast<float>(apart[2]),
-            static_cast<float>(squared - error), static_cast<float>(squared + error)};
+  void round_others(double reach) {
+    const std::size_t count = scratch_.others.size();
+    for (std::vector<float>* each : {&scratch_.x, &scratch_.y, &scratch_.z, &scratch_.least, &scratch_.greatest,
+                                     &scratch_.near, &scratch_.far}) {
+      each->resize(count);
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      const Ball& other = scratch_.others[k];
+      const Point apart = other.centre - from_.centre;
+      const double most = length(apart) + reach, error = 0x1p-18 * most * most, squared = other.radius * other.radius;
+      scratch_.x[k] = static_cast<float>(apart[0]);
+      scratch_.y[k] = static_cast<float>(apart[1]);
+      scratch_.z[k] = static_cast<float>(apart[2]);
+      scratch_.least[k] = static_cast<float>(squared - error);
+      scratch_.greatest[k] = static_cast<float>(squared + error);
+    }
   }
 
   /// Half the length of the part of the line in the ball, squared; not positive: they do not meet. The rounded result
@@ -169,30 +176,36 @@ class SymmetricDifference::Walk {
     scratch_.met.clear();
     const std::size_t count = scratch_.others.size();
     if (hider < count && holds(scratch_.others[hider], box)) return false;
-    scratch_.distances.resize(count);
-    const Coarse* const coarse = scratch_.coarse.data();
-    Scratch::Distances* const distances = scratch_.distances.data();
+    find_distances(box);
+    for (std::size_t k = 0; k < count; ++k) {
+      if (scratch_.far[k] <= scratch_.least[k]) {
+        hider = k;
+        return false;
+      }
+      if (scratch_.near[k] < scratch_.greatest[k]) scratch_.met.push_back(static_cast<std::uint32_t>(k));
+    }
+    return true;
+  }
+
+  /// By columns, so that the compiler computes several at a time.
+  void find_distances(const Box& box) {
     std::array<float, 3> middle, half;
     for (std::size_t k = 0; k < 3; ++k) {
       middle[k] = static_cast<float>(box[k].middle - from_.centre[k]);
       half[k] = static_cast<float>(box[k].half);
     }
     const float mx = middle[0], my = middle[1], mz = middle[2], hx = half[0], hy = half[1], hz = half[2];
+    const float *const cx = scratch_.x.data(), *const cy = scratch_.y.data(), *const cz = scratch_.z.data();
+    float *const near = scratch_.near.data(), *const far = scratch_.far.data();
+    const std::size_t count = scratch_.others.size();
     for (std::size_t k = 0; k < count; ++k) {
-      const float x = std::fabs(coarse[k].x - mx), y = std::fabs(coarse[k].y - my), z = std::fabs(coarse[k].z - mz);
+      const float x = std::fabs(cx[k] - mx), y = std::fabs(cy[k] - my), z = std::fabs(cz[k] - mz);
       const float nx = positive(x - hx), ny = positive(y - hy), nz = positive(z - hz);
-      distances[k].near = nx * nx + ny * ny + nz * nz;
-      distances[k].far = (x + hx) * (x + hx) + (y + hy) * (y + hy) + (z + hz) * (z + hz);
+      near[k] = nx * nx + ny * ny + nz * nz;
+      far[k] = (x + hx) * (x + hx) + (y + hy) * (y + hy) + (z + hz) * (z + hz);
     }
-    for (std::size_t k = 0; k < count; ++k) {
-      if (distances[k].far <= coarse[k].least_squared) {
-        hider = k;
-        return false;
-      }
-      if (distances[k].near < coarse[k].greatest_squared) scratch_.met.push_back(static_cast<std::uint32_t>(k));
-    }
-    return true;
   }
+
   static bool holds(const Ball& ball, const Box& box) {
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k) {

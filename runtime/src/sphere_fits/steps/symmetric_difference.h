@@ -32,15 +32,9 @@ class SymmetricDifference {
   class Walk;
   /// Memory of a call.
   struct Scratch {
-    struct Coarse {
-      float x, y, z, least_squared, greatest_squared;  // of the radius
-    };
-    struct Distances {
-      float near, far;  // squared
-    };
     std::vector<Ball> others;
-    std::vector<Coarse> coarse;  // of the others
-    std::vector<Distances> distances;
+    std::vector<float> x, y, z, least, greatest;  // of the others, rounded: centres, and squares of radii
+    std::vector<float> near, far;                 // from them to a block, squared
     std::vector<std::uint32_t> met;          // numbers of others that meet a block
     std::vector<SolidLines::Stretch> taken;  // of a line, by others
   };
