@@ -166,9 +166,7 @@ TEST(SymmetricDifference, IsThatOfAllLinesBeforeAndAfterAStep) {
   SymmetricDifference difference(torus.solid);
   const SolidLines lines(torus.solid, 160, 32);
   const Point middle = torus.mesh.report.lower + 0.5 * (torus.mesh.report.upper - torus.mesh.report.lower);
-  const auto ball = [&](double x, double y, double z, double radius) {
-    return Ball{middle + Point{x, y, z}, radius};
-  };
+  const auto ball = [&](double x, double y, double z, double radius) { return Ball{middle + Point{x, y, z}, radius}; };
   // Some hold most of the moving ball, some cut its stretches in the middle, and one is far from it.
   const std::vector<Ball> others = {ball(0.5, 0.1, 0, 0.3),    ball(0.55, 0.2, 0.1, 0.25), ball(0.3, 0.5, 0, 0.2),
                                     ball(0.45, 0, 0.35, 0.05), ball(0.5, 0, -0.3, 0.04),   ball(-0.6, 0, 0, 0.3)};

@@ -32,8 +32,9 @@ class Corners {
     const Point d = other.centre - ball.centre;
     const double w = dot(d, d) + (ball.radius - other.radius) * (ball.radius + other.radius);
     const double size = std::fabs(d[0]) + std::fabs(d[1]) + std::fabs(d[2]);
-    const double least = w - 2 * size * slack_ -
-                         0x1p-40 * (size * (size + farthest_) + ball.radius * ball.radius + other.radius * other.radius);
+    const double least =
+        w - 2 * size * slack_ -
+        0x1p-40 * (size * (size + farthest_) + ball.radius * ball.radius + other.radius * other.radius);
     double in_box = 0;
     for (std::size_t k = 0; k < 3; ++k) in_box += std::max(d[k] * lower_[k], d[k] * upper_[k]);
     if (2 * in_box < least) return false;

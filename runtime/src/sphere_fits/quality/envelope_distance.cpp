@@ -64,8 +64,8 @@ struct Patch {
   TrianglePart part;
   mutable Point at_envelope = {HUGE_VAL, 0, 0};
 
-  /// Tries another point of the envelope. Returns the distance of the part's points from that known so far: the greatest,
-  /// which is at a corner.
+  /// Tries another point of the envelope. Returns the distance of the part's points from that known so far: the
+  /// greatest, which is at a corner.
   double farthest(const Point& at) const {
     const double now = part.reach(at_envelope), then = part.reach(at);
     if (then < now) at_envelope = at;

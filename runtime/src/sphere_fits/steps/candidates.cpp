@@ -36,8 +36,8 @@ void Candidates::add(std::span<const Ball> balls) {
   }
 }
 
-/// find_promising() asks in the order of earlier estimates until one of this round is the greatest, about as often as the
-/// last time.
+/// find_promising() asks in the order of earlier estimates until one of this round is the greatest, about as often as
+/// the last time.
 std::size_t Candidates::expect_estimates() {
   expected_.clear();
   for (; !queue_.empty() && expected_.size() < estimates_; queue_.pop()) expected_.push_back(queue_.top());

@@ -27,8 +27,8 @@ class Candidates {
   /// The best few by the points of a lattice that the balls of the union hold, for the next take_best(). Throws
   /// std::bad_alloc.
   void find_promising(const Coverage& coverage);
-  /// Before find_promising(), to share its work: it will need estimates of about so many candidates, which may be computed
-  /// at the same time. Whether they are makes no difference to what it finds. Throws std::bad_alloc.
+  /// Before find_promising(), to share its work: it will need estimates of about so many candidates, which may be
+  /// computed at the same time. Whether they are makes no difference to what it finds. Throws std::bad_alloc.
   std::size_t expect_estimates();
   void estimate(std::size_t number, const Coverage& coverage);
   /// For another lattice: gains that have been measured bound the candidates again, or their volumes.

@@ -104,13 +104,13 @@ class SymmetricDifference::Walk {
     return {{ball.centre[axes_[0]], ball.centre[axes_[1]], ball.centre[axes_[2]]}, ball.radius};
   }
 
-  /// To float, relative to the centre of from_. Blocks lie within `reach` of it. Centres and blocks, and their differences
-  /// and sums, are rounded by 4 · 2^-24 of M, the distance of the centre plus the reach, in each coordinate: squares of
-  /// distances are rounded by less than 2^-18 M^2.
+  /// To float, relative to the centre of from_. Blocks lie within `reach` of it. Centres and blocks, and their
+  /// differences and sums, are rounded by 4 · 2^-24 of M, the distance of the centre plus the reach, in each
+  /// coordinate: squares of distances are rounded by less than 2^-18 M^2.
   void round_others(double reach) {
     const std::size_t count = scratch_.others.size();
-    for (std::vector<float>* each : {&scratch_.x, &scratch_.y, &scratch_.z, &scratch_.least, &scratch_.greatest,
-                                     &scratch_.near, &scratch_.far}) {
+    for (std::vector<float>* each :
+         {&scratch_.x, &scratch_.y, &scratch_.z, &scratch_.least, &scratch_.greatest, &scratch_.near, &scratch_.far}) {
       each->resize(count);
     }
     for (std::size_t k = 0; k < count; ++k) {
@@ -165,13 +165,13 @@ class SymmetricDifference::Walk {
       if (find_met(box, hiders_[1])) sum += sum_of_lines(block);
       return sum;
     }
-    box[2] = side_of(std::min(a - before.greatest, b - after.greatest),
-                     std::max(a + before.greatest, b + after.greatest));
+    box[2] =
+        side_of(std::min(a - before.greatest, b - after.greatest), std::max(a + before.greatest, b + after.greatest));
     return find_met(box, hiders_[0]) ? sum_of_lines(block) : 0;
   }
 
-  /// Finds the others that meet the box. False if one of them holds all of it, mostly that of number `hider`, which held
-  /// the last one.
+  /// Finds the others that meet the box. False if one of them holds all of it, mostly that of number `hider`, which
+  /// held the last one.
   bool find_met(const Box& box, std::size_t& hider) {
     scratch_.met.clear();
     const std::size_t count = scratch_.others.size();

@@ -35,8 +35,8 @@ class SymmetricDifference {
     std::vector<Ball> others;
     std::vector<float> x, y, z, least, greatest;  // of the others, rounded: centres, and squares of radii
     std::vector<float> near, far;                 // from them to a block, squared
-    std::vector<std::uint32_t> met;          // numbers of others that meet a block
-    std::vector<SolidLines::Stretch> taken;  // of a line, by others
+    std::vector<std::uint32_t> met;               // numbers of others that meet a block
+    std::vector<SolidLines::Stretch> taken;       // of a line, by others
   };
 
   SolidLines lines_;
