@@ -172,12 +172,11 @@ class Placing final : public GrowingBalls {
   Result<std::optional<Candidates::Choice>> choose() {
     std::optional<Ball> ball;
     if (balls_.size() > 0) {
-      // No task changes anything that another reads.
-      pool_.run(1 + candidates_.expect_estimates(), 1, [&](std::size_t task) {
-        if (task == 0) ball = ball_in_widest_gap(solid_, gaps_);
-        if (task > 0) candidates_.estimate(task - 1, coverage_);
+      // Neither task changes anything that the other reads.
+      pool_.run(2, 1, [&](std::size_t task) {
+        if (task == 0) candidates_.find_promising(coverage_);
+        if (task == 1) ball = ball_in_widest_gap(solid_, gaps_);
       });
-      candidates_.find_promising(coverage_);
     }
     Result<std::optional<Candidates::Choice>> best = candidates_.take_best(balls_);
     if (best && !best.value() && balls_.size() == 0) return first_from_boundary();

@@ -36,31 +36,9 @@ void Candidates::add(std::span<const Ball> balls) {
   }
 }
 
-/// find_promising() asks in the order of earlier estimates until one of this round is the greatest, about as often as
-/// the last time.
-std::size_t Candidates::expect_estimates() {
-  expected_.clear();
-  for (; !queue_.empty() && expected_.size() < estimates_; queue_.pop()) expected_.push_back(queue_.top());
-  for (const Entry& entry : expected_) queue_.push(entry);
-  known_estimates_.resize(balls_.size(), kTaken);
-  return expected_.size();
-}
-
-void Candidates::estimate(std::size_t number, const Coverage& coverage) {
-  const std::uint32_t candidate = expected_[number].candidate;
-  if (bounds_[candidate] != kTaken) known_estimates_[candidate] = coverage.uncovered(balls_[candidate]);
-}
-
-double Candidates::estimate_of(std::uint32_t candidate, const Coverage& coverage) {
-  ++estimates_;
-  if (candidate < known_estimates_.size() && known_estimates_[candidate] != kTaken) return known_estimates_[candidate];
-  return coverage.uncovered(balls_[candidate]);
-}
-
 void Candidates::find_promising(const Coverage& coverage) {
   ++round_;
   promising_.clear();
-  estimates_ = 0;
   while (!queue_.empty() && queue_.top().gain > 0 && promising_.size() < kAtOnce) {
     const Entry top = queue_.top();
     queue_.pop();
@@ -68,11 +46,9 @@ void Candidates::find_promising(const Coverage& coverage) {
     if (top.evaluated == round_) {
       promising_.push_back(top);
     } else {
-      queue_.push({estimate_of(top.candidate, coverage), top.candidate, round_});
+      queue_.push({coverage.uncovered(balls_[top.candidate]), top.candidate, round_});
     }
   }
-  for (const Entry& entry : expected_) known_estimates_[entry.candidate] = kTaken;
-  expected_.clear();
   for (const Entry& entry : promising_) queue_.push(entry);
 }
 

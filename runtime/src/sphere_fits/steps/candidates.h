@@ -27,10 +27,6 @@ class Candidates {
   /// The best few by the points of a lattice that the balls of the union hold, for the next take_best(). Throws
   /// std::bad_alloc.
   void find_promising(const Coverage& coverage);
-  /// Before find_promising(), to share its work: it will need estimates of about so many candidates, which may be
-  /// computed at the same time. Whether they are makes no difference to what it finds. Throws std::bad_alloc.
-  std::size_t expect_estimates();
-  void estimate(std::size_t number, const Coverage& coverage);
   /// For another lattice: gains that have been measured bound the candidates again, or their volumes.
   void forget_estimates() { queue_ = by_bounds(); }
   /// To be called when balls have been replaced by smaller ones: gains of candidates that met them are no bounds any
@@ -53,7 +49,6 @@ class Candidates {
   using Queue = std::priority_queue<Entry>;
   static constexpr double kTaken = -1;
 
-  double estimate_of(std::uint32_t candidate, const Coverage& coverage);
   Status measure(DynamicUnion& balls, std::vector<Entry>& entries);
   Choice take(const Entry& best);
   Queue by_bounds() const;
@@ -63,9 +58,6 @@ class Candidates {
   std::vector<double> bounds_;  // the gains that were measured last, or volumes; kTaken
   Queue queue_;                 // by estimates; holds those taken, too
   std::vector<Entry> promising_;
-  std::vector<Entry> expected_;          // those with the greatest estimates of earlier rounds
-  std::vector<double> known_estimates_;  // by candidate, of this round; kTaken: none
-  std::size_t estimates_ = 0;            // that the last find_promising() needed
   std::uint32_t round_ = 0;
 };
 
