@@ -8,6 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "base/point_ops.h"
+
 namespace medial_vk {
 namespace {
 
@@ -74,9 +76,20 @@ TEST(Coverage, DependsOnTheBallsThatAreThereAlone) {
     if (i < gone.size()) changed.remove(gone[i]);
   }
   fresh.divide(1e5, there);
+  // One ball becomes another: far from it, near to it, or the same.
+  Coverage replaced(lower, upper);
+  replaced.divide(1e5, gone);
+  for (std::size_t i = 0; i < gone.size(); ++i) {
+    const Ball near = {there[i].centre + Point{0.01, -0.02, 0.005}, 1.1 * there[i].radius};
+    replaced.replace(gone[i], near);
+    replaced.replace(near, there[i]);
+    replaced.replace(there[i], there[i]);
+  }
+  replaced.add(there.back());
   int differ_from_none = 0;
   for (const Ball& ball : balls_in_box(4, 200)) {
     EXPECT_EQ(changed.uncovered(ball), fresh.uncovered(ball));
+    EXPECT_EQ(replaced.uncovered(ball), fresh.uncovered(ball));
     differ_from_none += fresh.uncovered(ball) > 0 ? 1 : 0;
   }
   EXPECT_GT(differ_from_none, 10);

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <vector>
 
 #include "base/point_ops.h"
 #include "medial_vk/ball_union.h"
@@ -116,6 +118,73 @@ TEST(SymmetricDifference, CountsABallInsideDownAndOneOutsideUp) {
   EXPECT_EQ(difference.change(inside, same), 0);
   const std::vector<Ball> larger = {{inside.centre, 0.35}};
   EXPECT_EQ(difference.change(inside, larger), 0);
+}
+
+/// The length of the line on which exactly one of the solid and the union is, between all ends one after the other.
+double difference_on_line(std::span<const SolidLines::Stretch> inside, const std::vector<SolidLines::Stretch>& balls) {
+  std::vector<double> ends;
+  for (const SolidLines::Stretch& part : inside) ends.insert(ends.end(), {part.from, part.to});
+  for (const SolidLines::Stretch& part : balls) ends.insert(ends.end(), {part.from, part.to});
+  std::sort(ends.begin(), ends.end());
+  double sum = 0;
+  for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+    const double middle = 0.5 * (ends[k] + ends[k + 1]);
+    const auto holds = [&](const SolidLines::Stretch& part) { return part.from < middle && middle < part.to; };
+    if (std::any_of(inside.begin(), inside.end(), holds) != std::any_of(balls.begin(), balls.end(), holds))
+      sum += ends[k + 1] - ends[k];
+  }
+  return sum;
+}
+
+/// What SymmetricDifference estimates, over every line that the balls can meet.
+double difference_along_lines(const SolidLines& lines, const std::vector<Ball>& balls) {
+  constexpr std::ptrdiff_t kBeyond = 80;
+  double all = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const SolidLines::Bundle& bundle = lines.along(axis);
+    double sum = 0;
+    for (std::ptrdiff_t j = -kBeyond; j < bundle.count[1] + kBeyond; ++j) {
+      for (std::ptrdiff_t i = -kBeyond; i < bundle.count[0] + kBeyond; ++i) {
+        std::vector<SolidLines::Stretch> parts;
+        for (const Ball& ball : balls) {
+          const double x = bundle.at(0, i) - ball.centre[bundle.across[0]];
+          const double y = bundle.at(1, j) - ball.centre[bundle.across[1]];
+          const double squared = ball.radius * ball.radius - x * x - y * y;
+          if (squared <= 0) continue;
+          parts.push_back({ball.centre[axis] - std::sqrt(squared), ball.centre[axis] + std::sqrt(squared)});
+        }
+        sum += difference_on_line(bundle.stretches(i, j), parts);
+      }
+    }
+    all += sum * bundle.spacing[0] * bundle.spacing[1] / 3;
+  }
+  return all;
+}
+
+TEST(SymmetricDifference, IsThatOfAllLinesBeforeAndAfterAStep) {
+  const Shape torus(test::make_turned_torus());
+  SymmetricDifference difference(torus.solid);
+  const SolidLines lines(torus.solid, 160, 32);
+  const Point middle = torus.mesh.report.lower + 0.5 * (torus.mesh.report.upper - torus.mesh.report.lower);
+  const auto ball = [&](double x, double y, double z, double radius) { return Ball{middle + Point{x, y, z}, radius}; };
+  // Some hold most of the moving ball, some cut its stretches in the middle, and one is far from it.
+  const std::vector<Ball> others = {ball(0.5, 0.1, 0, 0.3),    ball(0.55, 0.2, 0.1, 0.25), ball(0.3, 0.5, 0, 0.2),
+                                    ball(0.45, 0, 0.35, 0.05), ball(0.5, 0, -0.3, 0.04),   ball(-0.6, 0, 0, 0.3)};
+  const std::vector<std::array<Ball, 2>> steps = {
+      {ball(0.5, 0, 0, 0.35), ball(0.52, 0.03, -0.02, 0.33)},  // a small step
+      {ball(0.5, 0, 0, 0.3), ball(0.5, 0, 0, 0.4)},            // growth
+      {ball(0.5, 0, 0, 0.35), ball(-0.2, 0.1, 0.6, 0.15)},     // away from where it was
+      {ball(0.5, 0, 0, 0.35), ball(0.5, 0, 0, 0.001)},         // almost nothing remains
+      {ball(0.5, 0, 0, 0.2), ball(0.5, 0.1, 0, 0.2)},          // hidden before and after, but for a cap
+  };
+  for (const auto& [from, to] : steps) {
+    std::vector<Ball> before = others, after = others;
+    before.push_back(from);
+    after.push_back(to);
+    const double expected = difference_along_lines(lines, after) - difference_along_lines(lines, before);
+    // Sums of 10^5 lengths of at most 1, each rounded by some 2^-52.
+    EXPECT_NEAR(difference.change(from, to, others), expected, 1e5 * 8 * 0x1p-52);
+  }
 }
 
 TEST(SymmetricDifference, DoesNotDependOnTheOrder) {

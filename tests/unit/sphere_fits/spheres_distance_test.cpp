@@ -193,9 +193,11 @@ TEST(EnvelopeDistance, AgreesWithSamples) {
     for (const Ball& query : random_balls(200, seed + 100, 0.1, 0.2)) {
       double nearest = 1e9;
       for (const WeightedPoint& sample : samples) nearest = std::min(nearest, length(sample.at - query.centre));
-      const double distance = envelope.distance(query.centre);
+      const auto [distance, at] = envelope.nearest(query.centre);
       EXPECT_LE(distance, nearest + 1e-8);
       EXPECT_GE(distance, nearest - 0.03);
+      EXPECT_NEAR(length(at - query.centre), distance, envelope.distance_error());
+      EXPECT_NEAR(envelope.distance(at), 0, envelope.distance_error());
     }
   }
 }

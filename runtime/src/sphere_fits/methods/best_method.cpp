@@ -264,8 +264,7 @@ class Placing final : public GrowingBalls {
   /// A ball has become another one.
   void cover_anew(const Ball& from, const Ball& to) {
     if (coverage_.cell() == 0 || (from.centre == to.centre && from.radius == to.radius)) return;
-    coverage_.remove(from);
-    coverage_.add(to);
+    coverage_.replace(from, to);
   }
 
   Status settle() {

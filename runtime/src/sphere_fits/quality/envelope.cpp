@@ -125,7 +125,7 @@ Status Envelope::rebuild(std::span<const Ball> balls, UnionMeasurer& measurer, W
   return {};
 }
 
-void Envelope::improve_on_arc(std::uint32_t ball, std::uint32_t other, const Point& p, double& best) const {
+void Envelope::improve_on_arc(std::uint32_t ball, std::uint32_t other, const Point& p, EnvelopePoint& best) const {
   const Ball &a = tree_.balls()[ball], &b = tree_.balls()[other];
   const Point between = b.centre - a.centre;
   const double gap = length(between);
@@ -143,31 +143,32 @@ void Envelope::improve_on_arc(std::uint32_t ball, std::uint32_t other, const Poi
   const Point away = out > 0 ? (1 / out) * across : perpendicular_to(axis);
   const Point near = middle + std::sqrt(squared) * away;
   const double distance = length(p - near);
-  if (distance < best && is_exposed(near)) best = distance;
+  if (distance < best.distance && is_exposed(near)) best = {distance, near};
 }
 
-void Envelope::improve(std::uint32_t ball, const Point& p, double& best) const {
+void Envelope::improve(std::uint32_t ball, const Point& p, EnvelopePoint& best) const {
   const Ball& a = tree_.balls()[ball];
   const Point to = p - a.centre;
   const double from_centre = length(to);
   const double distance = std::fabs(from_centre - a.radius);
-  if (distance >= best) return;  // Nothing on this sphere is nearer.
+  if (distance >= best.distance) return;  // Nothing on this sphere is nearer.
   const Point way = from_centre > 0 ? (1 / from_centre) * to : Point{0, 0, 1};
-  if (is_exposed(a.centre + a.radius * way)) {
-    best = distance;
+  if (const Point pole = a.centre + a.radius * way; is_exposed(pole)) {
+    best = {distance, pole};
     return;
   }
   for (std::uint32_t k = first_arc_[ball]; k < first_arc_[ball + 1]; ++k) {
     improve_on_arc(ball, union_.complex.edges[k][1], p, best);
   }
   for (std::uint32_t k = first_vertex_[ball]; k < first_vertex_[ball + 1]; ++k) {
-    best = std::min(best, length(p - vertices_[k].at));
+    const double from_vertex = length(p - vertices_[k].at);
+    if (from_vertex < best.distance) best = {from_vertex, vertices_[k].at};
   }
 }
 
-double Envelope::distance(const Point& p, double enough) const {
+EnvelopePoint Envelope::nearest(const Point& p, double enough) const {
   const NearestBall outside = tree_.nearest(p);
-  if (outside.distance >= 0) return outside.distance;
+  if (outside.distance >= 0) return {outside.distance, point_of_sphere(tree_.balls()[outside.ball], p)};
   // A point of the envelope lies on a sphere; boxes of centres and radii bound the distance to it.
   struct Entry {
     std::uint32_t node;
@@ -182,16 +183,16 @@ double Envelope::distance(const Point& p, double enough) const {
   std::array<Entry, 64> stack;
   std::size_t size = 0;
   stack[size++] = {0, bound_of(0)};
-  double best = std::numeric_limits<double>::infinity();
-  while (size > 0 && best > enough) {
+  EnvelopePoint best = {std::numeric_limits<double>::infinity(), p};
+  while (size > 0 && best.distance > enough) {
     const Entry entry = stack[--size];
-    if (entry.bound >= best) continue;
+    if (entry.bound >= best.distance) continue;
     const NearestBallTree::Node& node = nodes[entry.node];
     if (node.right != 0) {
       Entry near = {entry.node + 1, bound_of(entry.node + 1)}, far = {node.right, bound_of(node.right)};
       if (far.bound < near.bound) std::swap(near, far);
-      if (far.bound < best) stack[size++] = far;
-      if (near.bound < best) stack[size++] = near;
+      if (far.bound < best.distance) stack[size++] = far;
+      if (near.bound < best.distance) stack[size++] = near;
       continue;
     }
     for (std::uint32_t k = node.first; k < node.first + node.count; ++k) improve(tree_.order()[k], p, best);

@@ -14,6 +14,12 @@
 
 namespace medial_vk {
 
+/// A point of the envelope, and its distance from another point.
+struct EnvelopePoint {
+  double distance;
+  Point at;
+};
+
 /// The envelope E of balls is the set f = 0 of f(p) = min |p - c_i| - r_i. (docs/theory.md, "Tight spheres")
 class Envelope {
  public:
@@ -40,7 +46,9 @@ class Envelope {
 
   /// From a point to the envelope, on either side of it, within distance_error(). If the exact answer is at most
   /// `enough`, the result may be any number between it and `enough`.
-  double distance(const Point& p, double enough = 0) const;
+  double distance(const Point& p, double enough = 0) const { return nearest(p, enough).distance; }
+  /// The same with a point of the envelope at that distance.
+  EnvelopePoint nearest(const Point& p, double enough = 0) const;
   /// From a point in the balls to where the half-line along a unit direction first leaves them, unless that is farther
   /// than `most`: then infinity. The point there is in no ball by more than tolerance().
   double distance_along(const Point& p, const Point& direction, double most) const;
@@ -50,8 +58,8 @@ class Envelope {
  private:
   /// Of the balls of the tree and their union.
   void find_vertices();
-  void improve(std::uint32_t ball, const Point& p, double& best) const;
-  void improve_on_arc(std::uint32_t ball, std::uint32_t other, const Point& p, double& best) const;
+  void improve(std::uint32_t ball, const Point& p, EnvelopePoint& best) const;
+  void improve_on_arc(std::uint32_t ball, std::uint32_t other, const Point& p, EnvelopePoint& best) const;
   bool is_exposed(const Point& p) const { return !tree_.holds(p, tolerance_); }
   void add_vertices(const std::array<std::uint32_t, 3>& balls);
 

@@ -59,11 +59,24 @@ Cube cube_around(const std::vector<Ball>& balls) {
   return cube_around(lower, upper);
 }
 
-/// The point of a ball's sphere that is nearest to p.
-Point on_sphere(const Ball& ball, const Point& p) {
-  const Point to = p - ball.centre;
-  const double distance = length(to);
-  return ball.centre + (ball.radius / distance) * to;
+/// A part of the boundary, with a point of the envelope that is near to it or to the part that it comes from.
+struct Patch {
+  TrianglePart part;
+  mutable Point at_envelope = {HUGE_VAL, 0, 0};
+
+  /// Tries another point of the envelope. Returns the distance of the part's points from that known so far: the
+  /// greatest, which is at a corner.
+  double farthest(const Point& at) const {
+    const double now = part.reach(at_envelope), then = part.reach(at);
+    if (then < now) at_envelope = at;
+    return std::min(now, then);
+  }
+};
+
+void split_patch(const Patch& patch, std::vector<Patch>& patches) {
+  std::vector<TrianglePart> parts;
+  split_part(patch.part, parts);
+  for (const TrianglePart& part : parts) patches.push_back({part, patch.at_envelope});
 }
 
 Bounds greater(const Bounds& a, const Bounds& b) { return {std::max(a.lower, b.lower), std::max(a.upper, b.upper)}; }
@@ -161,14 +174,46 @@ class Measure {
     });
   }
 
-  /// Only of points in balls not proved to be inside by themselves; points of the others are at distance 0.
+  /// How far a ball reaches out of the solid at most, and how far a point of it does.
+  struct Reach {
+    double most, least;
+  };
+  /// From a centre inside the solid, the boundary comes first on the way to a point of the ball outside. Where the mesh
+  /// is open, there may be none.
+  Reach reach_of(const Ball& ball) const {
+    const bool is_inside = solid_.contains(ball.centre);
+    const BvhHit hit = solid_.closest(ball.centre);
+    const double distance = std::sqrt(hit.squared_distance), most = ball.radius + (is_inside ? -distance : distance);
+    if (is_inside && most <= 0) return {0, 0};
+    if (!solid_.mesh().report.closed) return {HUGE_VAL, 0};
+    const Point apart = is_inside ? hit.point - ball.centre : ball.centre - hit.point;
+    const Point at = distance > 0 ? ball.centre + (ball.radius / distance) * apart : ball.centre;
+    return {most, solid_.contains(at) ? 0 : solid_.distance(at)};
+  }
+
+  /// Of points in balls that may reach out farther than is known of one of them.
   Bounds balls_to_solid() const {
+    const std::vector<Ball>& balls = tree_.balls();
+    std::vector<Reach> reaches(balls.size());
+    for_all(balls.size(), 4, limits_.threads, [&](std::size_t i) { reaches[i] = reach_of(balls[i]); });
+    if (std::all_of(reaches.begin(), reaches.end(), [](const Reach& reach) { return reach.most <= 0; })) return {};
+    // The greatest distances usually are at the vertices of the envelope, which belong to the balls.
+    double lower = greatest_at_vertices([&](const Point& p) { return solid_.contains(p) ? 0.0 : solid_.distance(p); });
+    for (const Reach& reach : reaches) lower = std::max(lower, reach.least);
+    Bounds known = {lower, lower};
     std::vector<Ball> others;
-    for (const Ball& ball : tree_.balls()) {
-      limits_.threads.check();
-      if (ball.radius > solid_.distance(ball.centre) || !solid_.contains(ball.centre)) others.push_back(ball);
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+      if (reaches[i].most > lower + limits_.tolerance) {
+        others.push_back(balls[i]);
+      } else {
+        known.upper = std::max(known.upper, reaches[i].most);
+      }
     }
-    if (others.empty()) return {};
+    if (!others.empty()) known = greater(known, greatest_outside(others, lower));
+    return rounded(known, slack_ + envelope_.distance_error());
+  }
+
+  Bounds greatest_outside(const std::vector<Ball>& others, double lower) const {
     const NearestBallTree tree(others);
     const auto evaluate = [&](const Cube& cube, double known) -> CellBounds {
       const double reach = cube.reach();
@@ -181,16 +226,12 @@ class Measure {
       if (bound <= known + limits_.tolerance) return {kNone, bound};
       const double sign = solid_.contains(cube.centre) ? -1 : 1;
       if (sign < 0 && distance > reach + slack_) return {};
-      const Point reached = nearest.distance > 0 ? on_sphere(others[nearest.ball], cube.centre) : cube.centre;
+      const Point reached = nearest.distance > 0 ? point_of_sphere(others[nearest.ball], cube.centre) : cube.centre;
       const double value = solid_.distance(reached);
       if (value <= known || solid_.contains(reached)) return {kNone, sign > 0 ? bound : reach - distance};
       return {value, sign > 0 ? bound : reach - distance};
     };
-    // The greatest distances usually are at the vertices of the envelope, which belong to the balls.
-    const double lower =
-        greatest_at_vertices([&](const Point& p) { return solid_.contains(p) ? 0.0 : solid_.distance(p); });
-    return rounded(bound_supremum(std::vector<Cube>{cube_around(others)}, lower, limits_, evaluate, split_cube),
-                   slack_ + envelope_.distance_error());
+    return bound_supremum(std::vector<Cube>{cube_around(others)}, lower, limits_, evaluate, split_cube);
   }
 
   template <class Distance>
@@ -230,21 +271,30 @@ class Measure {
 
   Bounds boundary_to_envelope(double lower) const {
     lower = std::max(lower, greatest_below_vertices());
-    const auto evaluate = [&](const TrianglePart& part, double known) -> CellBounds {
+    const auto evaluate = [&](const Patch& patch, double known) -> CellBounds {
+      const TrianglePart& part = patch.part;
+      const double enough = known + limits_.tolerance;
+      double bound = part.reach(patch.at_envelope);
+      if (bound <= enough) return {kNone, bound};
       const Point middle = part.middle();
-      const double reach = part.reach(middle);
       const NearestBall nearest = tree_.nearest(middle);
       if (nearest.distance >= 0) {
-        // The part outside of the balls, if any; points in them are at most `reach` deep.
-        return {nearest.distance, nearest.distance + reach};
+        return {nearest.distance, patch.farthest(point_of_sphere(tree_.balls()[nearest.ball], middle))};
       }
-      const double enough = known + limits_.tolerance - reach;
-      const double outward = envelope_.distance_along(middle, part.normal(), enough);
-      if (outward <= enough) return {kNone, outward + reach};
-      const double distance = envelope_.distance(middle, enough);
-      return {distance > enough ? distance : kNone, distance + reach};
+      const Point normal = part.normal();
+      const double outward = envelope_.distance_along(middle, normal, enough);
+      if (outward <= enough) bound = patch.farthest(middle + outward * normal);
+      // A part of such a size is divided anyway.
+      const double reach = part.reach(middle);
+      if (bound <= enough || (reach > enough && bound < HUGE_VAL)) return {kNone, bound};
+      const EnvelopePoint found = envelope_.nearest(middle, enough - reach);
+      return {found.distance > enough - reach ? found.distance : kNone, patch.farthest(found.at)};
     };
-    return rounded(bound_supremum(parts_, lower, limits_, evaluate, split_part), slack_ + envelope_.distance_error());
+    std::vector<Patch> patches;
+    patches.reserve(parts_.size());
+    for (const TrianglePart& part : parts_) patches.push_back({part});
+    return rounded(bound_supremum(std::move(patches), lower, limits_, evaluate, split_patch),
+                   slack_ + envelope_.distance_error());
   }
 
   Bounds envelope_to_boundary() const {
@@ -266,7 +316,7 @@ class Measure {
       if (distance + std::fabs(nearest.distance) <= known) return cell;
       const Ball& ball = tree_.balls()[nearest.ball];
       if (nearest.distance == -ball.radius) return cell;  // Its centre: no direction.
-      const Point reached = on_sphere(ball, cube.centre);
+      const Point reached = point_of_sphere(ball, cube.centre);
       if (!tree_.holds(reached, envelope_.tolerance())) cell.value = solid_.distance(reached);
       return cell;
     };

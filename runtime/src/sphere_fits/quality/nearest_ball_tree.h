@@ -20,6 +20,13 @@ struct NearestBall {
   std::uint32_t ball = 0xffffffffu;                           ///< The smallest index among equals.
 };
 
+/// The point of a ball's sphere that is nearest to p; the ball's centre has none.
+inline Point point_of_sphere(const Ball& ball, const Point& p) {
+  const Point to = p - ball.centre;
+  const double distance = length(to);
+  return distance > 0 ? ball.centre + (ball.radius / distance) * to : ball.centre;
+}
+
 /// Evaluates f(p) = min |p - c_i| - r_i: the distance to the union outside of it, 0 on its envelope, negative inside. f
 /// has Lipschitz constant 1. Queries may come from several threads at once.
 class NearestBallTree {

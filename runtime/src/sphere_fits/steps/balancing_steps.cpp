@@ -1,6 +1,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -64,7 +66,7 @@ class BalancingSteps : public BallSteps {
   Status replace(DynamicUnion& balls, std::uint32_t slot, const Ball& to) override {
     find_others(balls, slot,
                 length(to.centre - balls.ball(slot).centre) + std::fabs(to.radius - balls.ball(slot).radius));
-    gained_ += difference_.change(balls.ball(slot), others_) - difference_.change(to, others_);
+    gained_ -= difference_.change(balls.ball(slot), to, others_);
     return balls.shift(slot, to);
   }
 
@@ -92,11 +94,13 @@ class BalancingSteps : public BallSteps {
     const Ball& ball = balls.ball(slot);
     find_others(balls, slot, 3 * step);
     heights_.clear();
+    KnownHeights& known = known_heights(slot, ball);
     for (std::size_t k = 0; k < kSpherePoints; ++k) {
       const Point normal = spiral_point(k, kSpherePoints);
       const Point at = ball.centre + ball.radius * normal;
       if (is_in_other(at)) continue;
-      heights_.push_back({normal, height_at(at, normal)});
+      if (std::isnan(known.heights[k])) known.heights[k] = height_at(at, normal);
+      heights_.push_back({normal, known.heights[k]});
     }
     if (heights_.empty()) return std::optional<Ball>();
     const Change change = least_absolute(heights_, step);
@@ -110,11 +114,28 @@ class BalancingSteps : public BallSteps {
 
   /// Among the others that propose() has found: no step is longer than its limit there.
   Result<double> try_move(DynamicUnion& balls, std::uint32_t slot, const Ball& to) override {
-    const double gain = difference_.change(balls.ball(slot), others_) - difference_.change(to, others_);
+    const double gain = -difference_.change(balls.ball(slot), to, others_);
     if (!(gain > 0)) return 0.0;
     if (Status status = balls.shift(slot, to); !status.ok()) return status.error();
     gained_ += gain;
     return gain;
+  }
+
+  /// Heights over the points of a sphere; NaN: not known yet.
+  struct KnownHeights {
+    Ball ball = {{}, -1};
+    std::array<double, kSpherePoints> heights = {};
+  };
+  /// Most steps are refused, and the next one of the ball begins on the same sphere. A few balls take steps in turn.
+  KnownHeights& known_heights(std::uint32_t slot, const Ball& ball) {
+    constexpr std::size_t kBalls = 64;
+    known_.resize(kBalls);
+    KnownHeights& known = known_[slot % kBalls];
+    if (known.ball.centre != ball.centre || known.ball.radius != ball.radius) {
+      known.ball = ball;
+      known.heights.fill(std::numeric_limits<double>::quiet_NaN());
+    }
+    return known;
   }
 
   bool is_in_other(const Point& at) const {
@@ -151,6 +172,7 @@ class BalancingSteps : public BallSteps {
   double gained_ = 0;
   std::vector<Ball> others_;
   std::vector<Height> heights_;
+  std::vector<KnownHeights> known_;
 };
 
 }  // namespace

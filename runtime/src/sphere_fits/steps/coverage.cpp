@@ -112,24 +112,65 @@ void Coverage::for_each_word(std::size_t row, const Range& points, const Visit& 
   }
 }
 
-void Coverage::add(const Ball& ball) {
-  for_each_row(ball, [&](std::size_t row, const Range& points) {
-    std::uint16_t* const counts = counts_.data() + row * size_[0];
-    for (std::size_t i = points.begin; i < points.end; ++i) ++counts[i];
-    for_each_word(row, points, [&](std::size_t word, std::uint64_t mask) { held_[word] |= mask; });
+/// One more ball holds these points.
+void Coverage::hold(std::size_t row, const Range& points) {
+  if (points.begin >= points.end) return;
+  std::uint16_t* const counts = counts_.data() + row * size_[0];
+  for (std::size_t i = points.begin; i < points.end; ++i) ++counts[i];
+  for_each_word(row, points, [&](std::size_t word, std::uint64_t mask) { held_[word] |= mask; });
+}
+
+void Coverage::release(std::size_t row, const Range& points) {
+  if (points.begin >= points.end) return;
+  std::uint16_t* const counts = counts_.data() + row * size_[0];
+  std::size_t freed = 0;
+  for (std::size_t i = points.begin; i < points.end; ++i) freed += --counts[i] == 0 ? 1 : 0;
+  if (freed == 0) return;
+  for_each_word(row, points, [&](std::size_t word, std::uint64_t mask) {
+    const std::size_t first = (word - row * words_) * kBits;
+    std::uint64_t clear = 0;
+    for (std::size_t bit = 0; bit < kBits; ++bit) {
+      if ((mask >> bit & 1) != 0 && counts[first + bit] == 0) clear |= std::uint64_t{1} << bit;
+    }
+    held_[word] &= ~clear;
   });
 }
 
+void Coverage::add(const Ball& ball) {
+  for_each_row(ball, [&](std::size_t row, const Range& points) { hold(row, points); });
+}
+
 void Coverage::remove(const Ball& ball) {
-  for_each_row(ball, [&](std::size_t row, const Range& points) {
-    std::uint16_t* const counts = counts_.data() + row * size_[0];
-    std::size_t freed = 0;
-    for (std::size_t i = points.begin; i < points.end; ++i) freed += --counts[i] == 0 ? 1 : 0;
-    if (freed == 0) return;
-    for (std::size_t i = points.begin; i < points.end; ++i) {
-      if (counts[i] == 0) held_[row * words_ + i / kBits] &= ~bits(i % kBits, i % kBits + 1);
+  for_each_row(ball, [&](std::size_t row, const Range& points) { release(row, points); });
+}
+
+std::vector<std::pair<std::size_t, Coverage::Range>> Coverage::rows_of(const Ball& ball) const {
+  std::vector<std::pair<std::size_t, Range>> rows;
+  for_each_row(ball, [&](std::size_t row, const Range& points) { rows.emplace_back(row, points); });
+  return rows;
+}
+
+/// Rows come in ascending order. Of a row's two ranges, each loses what it has in common with the other.
+void Coverage::replace(const Ball& from, const Ball& to) {
+  const std::vector<std::pair<std::size_t, Range>> before = rows_of(from), after = rows_of(to);
+  auto old = before.begin();
+  const auto release_until = [&](std::size_t row) {
+    for (; old != before.end() && old->first < row; ++old) release(old->first, old->second);
+  };
+  for (const auto& [row, now] : after) {
+    release_until(row);
+    if (old == before.end() || old->first != row) {
+      hold(row, now);
+      continue;
     }
-  });
+    const Range was = old->second;
+    ++old;
+    release(row, {was.begin, std::min(was.end, now.begin)});
+    release(row, {std::max(was.begin, now.end), was.end});
+    hold(row, {now.begin, std::min(now.end, was.begin)});
+    hold(row, {std::max(now.begin, was.end), now.end});
+  }
+  release_until(size_[1] * size_[2]);
 }
 
 double Coverage::uncovered(const Ball& ball) const {

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "medial_vk/ball.h"
 #include "sphere_fits/steps/zeroed_array.h"
@@ -26,6 +28,8 @@ class Coverage {
   void add(const Ball& ball);
   /// Precondition: it has been added.
   void remove(const Ball& ball);
+  /// The same as remove(from) and add(to), in the time of the points in one of them alone.
+  void replace(const Ball& from, const Ball& to);
   /// The volume of this ball's points in no other ball.
   double uncovered(const Ball& ball) const;
 
@@ -36,6 +40,9 @@ class Coverage {
   };
   template <class Visit>
   void for_each_row(const Ball& ball, const Visit& visit) const;
+  void hold(std::size_t row, const Range& points);
+  void release(std::size_t row, const Range& points);
+  std::vector<std::pair<std::size_t, Range>> rows_of(const Ball& ball) const;
   template <class Visit>
   void for_each_word(std::size_t row, const Range& points, const Visit& visit) const;
 

@@ -1,6 +1,8 @@
 // The contribution of a ball to the volume between a solid and a union of balls.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -21,24 +23,24 @@ class SymmetricDifference {
 
   /// The change by this ball of the value for `others`: the volume that only this ball holds outside the solid, less
   /// that inside. Mesh units cubed.
-  double change(const Ball& ball, std::span<const Ball> others);
+  double change(const Ball& ball, std::span<const Ball> others) { return change({ball.centre, 0}, ball, others); }
+  /// The change of the value where a ball among `others` becomes another one. Only what lies between the two spheres is
+  /// examined, and blocks of lines where one of the others holds all of it are passed over. Mesh units cubed.
+  double change(const Ball& from, const Ball& to, std::span<const Ball> others);
 
  private:
-  using Stretch = SolidLines::Stretch;
-  /// The disc in which a plane of lines meets a ball.
-  struct Disc {
-    double across, along;  // its centre
-    double squared;        // of its radius; not positive: empty
+  class Walk;
+  /// Memory of a call.
+  struct Scratch {
+    std::vector<Ball> others;
+    std::vector<float> x, y, z, least, greatest;  // of the others, rounded: centres, and squares of radii
+    std::vector<float> near, far;                 // from them to a block, squared
+    std::vector<std::uint32_t> met;               // numbers of others that meet a block
+    std::vector<SolidLines::Stretch> taken;       // of a line, by others
   };
-  static Disc slice(const Ball& ball, std::size_t axis, std::size_t across, double off);
-  double change_along(const Ball& ball, std::span<const Ball> others, std::size_t axis);
-  static std::ptrdiff_t first_line(const SolidLines::Bundle& bundle, std::size_t k, double from);
-  void find_left(const Disc& ball, double x);
-  void take_away(const Stretch& taken);
 
   SolidLines lines_;
-  std::vector<Disc> in_row_;          // of the other balls
-  std::vector<Stretch> left_, next_;  // of a line: the stretches that only the ball holds
+  Scratch scratch_;
 };
 
 }  // namespace medial_vk
