@@ -12,6 +12,9 @@
 namespace medial_vk {
 namespace {
 
+/// Of bounds of volumes that are not compared with others.
+constexpr double kWide = 0.01;
+
 double uncovered_share(const HullFit& fit) { return 1 - fit.covered.lower / *fit.solid_volume; }
 
 std::size_t parameters_of_all(const HullFit& fit) {
@@ -49,18 +52,20 @@ TEST(HullGoals, OfBallsMeetAnErrorByTheirBounds) {
 
 TEST(HullGoals, MeetAGap) {
   FitShape shape(test::make_box({1, 0.7, 0.45}));
-  const HullFit fit = shape.fit({.choice = HullChoice::kCones, .max_gap = 0.3}).value();
-  EXPECT_LE(fit.gap.upper, 0.3);
-  const HullFit both = shape.fit({.choice = HullChoice::kCapsules, .error = 0.55, .max_gap = 0.4}).value();
+  const HullFit fit = shape.fit({.choice = HullChoice::kCones, .max_gap = 0.4, .width = kWide}).value();
+  EXPECT_LE(fit.gap.upper, 0.4);
+  const HullFit both =
+      shape.fit({.choice = HullChoice::kCapsules, .error = 0.55, .max_gap = 0.4, .width = kWide}).value();
   EXPECT_LE(both.gap.upper, 0.4);
   EXPECT_LE(uncovered_share(both), 0.55);
 }
 
 TEST(HullGoals, MeetAllGoalsTogether) {
   FitShape shape(test::make_box({1, 0.7, 0.45}));
-  const HullFit by_parameters = shape.fit({.choice = HullChoice::kCones, .parameters = 23}).value();
+  const HullFit by_parameters = shape.fit({.choice = HullChoice::kCones, .parameters = 23, .width = kWide}).value();
   EXPECT_EQ(by_parameters.hulls.size(), 2u) << "of 8 each";
-  const HullFit by_both = shape.fit({.choice = HullChoice::kCones, .count = 1, .parameters = 23}).value();
+  const HullFit by_both =
+      shape.fit({.choice = HullChoice::kCones, .count = 1, .parameters = 23, .width = kWide}).value();
   EXPECT_EQ(by_both.hulls.size(), 1u);
   const HullFitOptions goals = {
       .choice = HullChoice::kCones, .count = 4, .parameters = 30, .error = 0.6, .max_gap = 0.5};
@@ -78,11 +83,11 @@ TEST(HullGoals, RefuseGoalsThatAreNotReached) {
     EXPECT_EQ(fit.error().code, ErrorCode::kUsage) << fit.error().message;
     EXPECT_THAT(fit.error().message, testing::HasSubstr(words));
   };
-  refused({.choice = HullChoice::kCapsules, .count = 1, .error = 0.01}, "1 hull leaves");
-  refused({.choice = HullChoice::kCapsules, .count = 1, .max_gap = 1e-3}, "a gap of");
+  refused({.choice = HullChoice::kCapsules, .count = 1, .error = 0.01, .width = kWide}, "1 hull leaves");
+  refused({.choice = HullChoice::kCapsules, .count = 1, .max_gap = 1e-3, .width = kWide}, "a gap of");
   refused({.choice = HullChoice::kBalls, .count = 1, .error = 0.01}, "");
   refused({.choice = HullChoice::kBalls, .count = 1, .max_gap = 1e-3}, "");
-  refused({.choice = HullChoice::kMix, .count = 1, .error = 0.01}, "");
+  refused({.choice = HullChoice::kMix, .count = 1, .error = 0.01, .width = kWide}, "");
   for (const HullChoice kind : {HullChoice::kBalls, HullChoice::kCapsules, HullChoice::kMix}) {
     refused({.choice = kind, .parameters = 3}, "`parameters` must be at least");
   }
@@ -113,15 +118,16 @@ TEST(HullGoals, RefuseOptionsOutOfRange) {
 
 TEST(HullGoals, AMixIsAtLeastAsGoodAsEachKind) {
   FitShape shape(test::make_box({1, 0.7, 0.45}));
-  const HullFit mix = shape.fit({.choice = HullChoice::kMix, .parameters = 11}).value();  // no slab has so few
+  const HullFit mix =
+      shape.fit({.choice = HullChoice::kMix, .parameters = 11, .width = kWide}).value();  // no slab has so few
   std::size_t fewest = kMostHulls;
   for (const HullChoice kind : {HullChoice::kBalls, HullChoice::kCapsules, HullChoice::kCones}) {
-    EXPECT_GE(mix.covered.lower, shape.fit({.choice = kind, .parameters = 11}).value().covered.lower);
-    fewest = std::min(fewest, parameters_of_all(shape.fit({.choice = kind, .error = 0.65}).value()));
+    EXPECT_GE(mix.covered.lower, shape.fit({.choice = kind, .parameters = 11, .width = kWide}).value().covered.lower);
+    fewest = std::min(fewest, parameters_of_all(shape.fit({.choice = kind, .error = 0.65, .width = kWide}).value()));
   }
   // One slab has more than the fewest.
   ASSERT_LT(fewest, parameters_of(HullKind::kSlab));
-  EXPECT_EQ(parameters_of_all(shape.fit({.choice = HullChoice::kMix, .error = 0.65}).value()), fewest);
+  EXPECT_EQ(parameters_of_all(shape.fit({.choice = HullChoice::kMix, .error = 0.65, .width = kWide}).value()), fewest);
 }
 
 }  // namespace

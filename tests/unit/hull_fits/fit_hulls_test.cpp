@@ -154,7 +154,7 @@ TEST(FitHulls, MoreOfThemNeverCoverLess) {
   const Extraction extraction = reference_extractor()(shape.mesh, options, {}, {}).value();
   for (const MedialSphere& sphere : extraction.spheres) medial.push_back({sphere.centre, sphere.radius});
   ASSERT_FALSE(medial.empty());
-  const HullSearchEffort effort = {};
+  const HullSearchEffort effort = {.proposals = 32, .climbed = 2, .climb = 8, .rounds = 2, .lines = 6000};
   HullFamily family(solid, medial, {2, true}, effort, {});
   Bounds last;
   double last_estimate = 0;

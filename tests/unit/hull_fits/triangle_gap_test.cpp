@@ -75,7 +75,7 @@ Corners corners_of(const BallHull& hull) {
 // Crossing pairs, where an edge of one axis goes through the other, and parallel ones are among the families.
 TEST(TriangleGap, IsThatOfTheReference) {
   for (std::uint32_t count = 1; count <= 3; ++count) {
-    for (int i = 0; i < 6'000; ++i) {
+    for (int i = 0; i < 4'000; ++i) {
       std::mt19937_64 random(static_cast<std::uint64_t>(i) * 4 + count);
       const auto family = static_cast<test::PairFamily>(i % static_cast<int>(test::PairFamily::kCount));
       const test::HullPair pair = test::random_pair(count, 3, family, random);
@@ -86,7 +86,7 @@ TEST(TriangleGap, IsThatOfTheReference) {
 
 TEST(TriangleGap, OfDegenerateTriangles) {
   for (std::uint32_t count = 1; count <= 3; ++count) {
-    for (int i = 0; i < 2'000; ++i) {
+    for (int i = 0; i < 1'500; ++i) {
       std::mt19937_64 random(static_cast<std::uint64_t>(i) * 4 + count);
       const BallHull hull = test::random_hull(count, random);
       Corners triangle = corners_of(test::random_hull(3, test::HullFamily::kGeneral, random));
