@@ -27,15 +27,25 @@ bool has_radii(const BallHull& hull) {
   return std::ranges::all_of(hull.balls(), [](const Ball& ball) { return ball.radius > 0; });
 }
 
-/// The hull with radii for which planes exist; no value: none were found.
+/// Of the radii of a hull that reaches into an opening of the boundary, until its side is known.
+constexpr double kShareBesideOpening = 0.85;
+constexpr int kMostScalings = 20;
+
+/// The hull with radii for which the proof succeeds; no value: none were found.
 std::optional<BallHull> proved(const Solid& solid, BallHull hull) {
-  for (int shrinks = 0; shrinks < kMostShrinks && has_radii(hull); ++shrinks) {
+  int shrinks = 0, scalings = 0;
+  while (has_radii(hull)) {
     const PlaneProof proof = prove_hull(solid, hull);
     if (proof.proved()) return hull;
-    if (!std::isfinite(proof.lack)) return std::nullopt;
-    // Smaller differences are lost to the rounding of radii, and of the planes across the hull.
-    const HullBounds box = bounds_of(hull);
-    hull = shrunk(hull, std::max(proof.lack * (1 + 0x1p-20), 0x1p-46 * length(box.upper - box.lower)));
+    if (std::isfinite(proof.lack)) {
+      if (++shrinks > kMostShrinks) return std::nullopt;
+      // Smaller differences are lost to the rounding of radii, and of the planes across the hull.
+      const HullBounds box = bounds_of(hull);
+      hull = shrunk(hull, std::max(proof.lack * (1 + 0x1p-20), 0x1p-46 * length(box.upper - box.lower)));
+    } else {
+      if (solid.mesh().report.closed || ++scalings > kMostScalings) return std::nullopt;
+      for (std::uint32_t i = 0; i < hull.count; ++i) hull.corners[i].radius *= kShareBesideOpening;
+    }
   }
   return std::nullopt;
 }
