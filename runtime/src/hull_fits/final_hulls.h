@@ -20,7 +20,8 @@ struct FreedHulls {
 
 /// The same hulls, with all radii of each smaller by the least for which planes separate it from every triangle: the
 /// depth of triangles that the linear program of the search leaves, and rounding. Beside an opening of the boundary,
-/// which no triangle limits, radii give way until the side is known; a hull for which that fails is left out. Throws Stopped at a stop by `threads`.
+/// which no triangle limits, radii give way until the side is known; a hull for which that fails is left out. Throws
+/// Stopped at a stop by `threads`.
 FreedHulls free_hulls(const Solid& solid, std::span<const BallHull> hulls, const Threads& threads);
 
 /// Bounds of the greatest distance from a point of the boundary to the hulls, at least one, in mesh units, 0 in them:
