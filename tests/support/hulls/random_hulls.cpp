@@ -40,7 +40,7 @@ void move(const Point& by, BallHull& hull) {
 }  // namespace
 
 BallHull random_hull(std::uint32_t count, HullFamily family, std::mt19937_64& random) {
-  BallHull hull;
+  BallHull hull = {};  // pairs use corners that it does not have, too
   hull.count = count;
   for (std::uint32_t i = 0; i < count; ++i) {
     hull.corners[i].centre = random_point(random);
