@@ -32,7 +32,7 @@ std::size_t parameters_of(HullKind kind);
 /// The convex hull of its first `count` balls, 1 to 3, in mesh units. Radii are not negative. Balls may lie in each
 /// other, and centres may coincide or be on one line.
 struct BallHull {
-  std::array<Ball, 3> corners;
+  std::array<Ball, 3> corners = {};
   std::uint32_t count = 1;
 
   std::span<const Ball> balls() const { return {corners.data(), count}; }
