@@ -265,21 +265,21 @@ class HullFitter {
 
   /// With a derived width: first with the greatest, which tells how much is uncovered.
   Result<Bounds> measure_covered(const HullFit& fit) const {
-    const double scale = fit.solid_volume ? *fit.solid_volume : volume_of_balls();
+    const double scale = fit.solid_volume ? *fit.solid_volume : greatest_volume(fit.hulls);
     HullUnionOptions options;
     options.width = scale * (options_.width > 0 ? options_.width : kGreatestWidth);
     options.threads = options_.threads;
-    const Result<Bounds> covered = measure_hull_union(fit.hulls, options, stop_);
+    Result<Bounds> covered = measure_hull_union(fit.hulls, options, stop_);
     if (options_.width > 0 || !covered || !fit.solid_volume) return covered;
     options.width = scale * derived_width(1 - covered.value().upper / scale);
     return options.width < kGreatestWidth * scale ? measure_hull_union(fit.hulls, options, stop_) : covered;
   }
 
-  /// A scale for meshes that enclose no volume cleanly: that of the largest ball.
-  double volume_of_balls() const {
+  /// A scale for meshes that enclose no volume cleanly: that of the largest hull.
+  static double greatest_volume(const std::vector<BallHull>& hulls) {
     double greatest = 0;
-    for (const Ball& ball : medial_) greatest = std::max(greatest, ball.radius);
-    return volume_of(hull_of(Ball{{0, 0, 0}, greatest}));
+    for (const BallHull& hull : hulls) greatest = std::max(greatest, volume_of(hull));
+    return greatest;
   }
 
   void tell(const char* stage, double done) {
