@@ -35,7 +35,8 @@ class Hulls(Result):
         return _native.hull_distances(*_flat(self), points)
 
     def volume(self, width: float, *, threads: int = 0) -> tuple[float, float]:
-        """Proved bounds of the volume of the union, which differ by at most ``width``, in cubed units of the mesh."""
+        """Proved bounds of the volume of the union, which differ by at most ``width``, in cubed units of the mesh,
+        or by what rounding allows."""
         return _native.measure_hull_union(*_flat(self), width, threads)
 
 
@@ -58,11 +59,13 @@ class HullFit(Result):
     covered: tuple[float, float]  #: Bounds of the volume of the union.
     gap: tuple[float, float]  #: Bounds of the greatest distance from a point of the boundary to the hulls.
     greatest_shrink: float  #: The greatest amount by which radii gave way for the proof.
+    left_out: int  #: Hulls of the search without a proof, beside openings of the boundary.
     solid_volume: float | None  #: If the mesh encloses one cleanly.
 
     @property
     def uncovered_share(self) -> tuple[float, float] | None:
-        """Bounds of the share of the solid's volume that no hull covers; None if that volume is not known."""
+        """Bounds of the share of the solid's volume that no hull covers, up to the rounding of that volume; None if it is not
+        known."""
         if self.solid_volume is None:
             return None
         lower, upper = self.covered

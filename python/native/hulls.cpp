@@ -95,6 +95,7 @@ py::dict fit(const MeshHandle& mesh, const ContextHandle& context, py::dict valu
   out["proof"] = proof_dict(made.proof);
   out["covered"] = bounds_tuple(made.covered);
   out["gap"] = bounds_tuple(made.gap);
+  out["left_out"] = made.left_out;
   out["greatest_shrink"] = made.greatest_shrink;
   out["solid_volume"] = made.solid_volume ? py::object(py::float_(*made.solid_volume)) : py::object(py::none());
   return out;

@@ -64,8 +64,8 @@ HullBounds bounds_of(const BallHull& hull);
 /// The volume of one hull in cubed mesh units, by a closed form.
 double volume_of(const BallHull& hull);
 
-/// The distance of two hulls, if they have no inner point in common; otherwise a number that is not positive, which
-/// only says so: it is not the depth of penetration. The minimum of |c(l) - c'(m)| - r(l) - r'(m), by a closed form.
+/// The distance of two hulls if it is positive; otherwise they meet, and the number only says so: it is not the depth
+/// of penetration. The minimum of |c(l) - c'(m)| - r(l) - r'(m), by a closed form.
 double distance_between(const BallHull& a, const BallHull& b);
 
 /// A closed triangle mesh whose vertices are on the surface of the hull, so that it lies in the hull, and whose surface

@@ -36,7 +36,8 @@ struct HullFitOptions {
   std::size_t parameters = 0;  ///< Greatest sum of parameters_of() their kinds; 0: no such goal.
   double error = 0;            ///< Greatest uncovered share of the solid's volume, in [0, 1); 0: no such goal.
   double max_gap = 0;          ///< Greatest distance from the boundary to the hulls, mesh units; 0: no such goal.
-  /// The greatest difference of the bounds HullFit::covered, as a share of the solid's volume; 0: a fiftieth of the
+  /// The greatest difference of the bounds HullFit::covered, as a share of the solid's volume, or
+  /// of the largest hull's where that is not known; 0: a fiftieth of the
   /// share that is left uncovered, within [1e-5, 1e-3].
   double width = 0;
   std::uint32_t resolution = 0;  ///< Of the extraction of medial points, as in ExtractionOptions; 0: derived.
@@ -58,6 +59,7 @@ struct HullFit {
   Bounds gap;
   /// The greatest amount by which the proof made radii smaller than the search had left them.
   double greatest_shrink = 0;
+  std::size_t left_out = 0;            ///< Hulls of the search without a proof, beside openings of the boundary.
   std::optional<double> solid_volume;  ///< If the mesh encloses one cleanly.
 };
 

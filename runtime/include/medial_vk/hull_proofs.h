@@ -26,7 +26,7 @@ struct HullProof {
 };
 
 /// Tests, in double precision and from the numbers of the hulls alone, that every hull lies in the solid that the mesh
-/// encloses. Time: some 0.1 ms a hull. Errors: kUsage (more than 2^20 hulls, a hull without balls or of more than
+/// encloses. Time: some 0.3 ms a hull. Errors: kUsage (more than 2^20 hulls, a hull without balls or of more than
 /// three, a number that is not finite or beyond 1e18, a negative radius; names the hull), kOutOfMemory, kInterrupted.
 Result<HullProof> prove_hulls(const IndexedMesh& mesh, std::span<const BallHull> hulls,
                               const ProofOptions& options = {}, const std::stop_token& stop = {});

@@ -17,9 +17,9 @@ struct HullUnionOptions {
 
 /// Bounds of the volume of the union of at most 2^20 hulls, in cubed mesh units: sums over cubic cells, of which each
 /// is outside of all hulls, in one of them, or cut by planes that leave a part outside and a part inside of them. Cells
-/// are divided until the bounds differ by at most `width`, or by what rounding allows. Errors: kUsage (a width that is
-/// not positive, too many hulls, a number that is not finite or a negative radius; names the hull; a width that needs
-/// more than 2^28 cells), kOutOfMemory, kInterrupted.
+/// are divided until the bounds differ by at most `width`, or by what rounding or 2^24 cells allow. Errors: kUsage (a
+/// width that is not positive, too many hulls, a number that is not finite or beyond 1e18, or a negative radius; names
+/// the hull), kOutOfMemory, kInterrupted.
 Result<Bounds> measure_hull_union(std::span<const BallHull> hulls, const HullUnionOptions& options,
                                   const std::stop_token& stop = {});
 

@@ -14,7 +14,8 @@ namespace {
 
 /// The radii give way once for the lack of planes, and again where the smaller hull has other planes.
 constexpr int kMostShrinks = 4;
-constexpr double kGapTolerance = 1e-3;  // of the diagonal
+/// The difference of the bounds of a gap, of the diagonal, and of a goal.
+constexpr double kGapOfDiagonal = 1e-3, kGapOfGoal = 0.05;
 /// Closed forms have errors of some units in the last place of the greatest coordinate.
 double gap_slack(const Solid& solid) { return 4 * solid.rounding(); }
 
@@ -89,6 +90,11 @@ class NearestHull {
   std::vector<HullBounds> boxes_;
 };
 
+double gap_tolerance(const Solid& solid, double goal) {
+  const double width = kGapOfDiagonal * solid.diagonal();
+  return goal > 0 ? std::min(width, kGapOfGoal * goal) : width;
+}
+
 }  // namespace
 
 FreedHulls free_hulls(const Solid& solid, std::span<const BallHull> hulls, const Threads& threads) {
@@ -106,8 +112,8 @@ FreedHulls free_hulls(const Solid& solid, std::span<const BallHull> hulls, const
   return result;
 }
 
-Bounds measure_hull_gap(const Solid& solid, std::span<const BallHull> hulls, const Threads& threads) {
-  const NearestHull tree(hulls);
+Bounds measure_hull_gap(const Solid& solid, std::span<const BallHull> hulls, double goal, const Threads& threads) {
+  const NearestHull nearest(hulls);
   const Mesh& mesh = solid.mesh().mesh;
   std::vector<TrianglePart> parts;
   parts.reserve(mesh.triangles.size());
@@ -116,15 +122,15 @@ Bounds measure_hull_gap(const Solid& solid, std::span<const BallHull> hulls, con
   }
   const auto evaluate = [&](const TrianglePart& part, double) -> CellBounds {
     const Point middle = part.middle();
-    const auto [distance, hull] = tree.nearest(middle);
-    return {distance, std::min(distance + part.reach(middle), tree.greatest_at_corners(hull, part))};
+    const auto [distance, hull] = nearest.nearest(middle);
+    return {distance, std::min(distance + part.reach(middle), nearest.greatest_at_corners(hull, part))};
   };
-  const SearchLimits limits = {.tolerance = kGapTolerance * solid.diagonal(), .threads = threads};
+  const SearchLimits limits = {.tolerance = gap_tolerance(solid, goal), .threads = threads};
   const Bounds found = bound_supremum(std::move(parts), 0, limits, evaluate, split_part);
   const double slack = gap_slack(solid);
   return {std::max(0.0, found.lower - slack), found.upper + slack};
 }
 
-double hull_gap_width(const Solid& solid) { return kGapTolerance * solid.diagonal() + 2 * gap_slack(solid); }
+double hull_gap_width(const Solid& solid, double goal) { return gap_tolerance(solid, goal) + 2 * gap_slack(solid); }
 
 }  // namespace medial_vk

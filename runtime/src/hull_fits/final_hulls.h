@@ -26,8 +26,8 @@ FreedHulls free_hulls(const Solid& solid, std::span<const BallHull> hulls, const
 
 /// Bounds of the greatest distance from a point of the boundary to the hulls, at least one, in mesh units, 0 in them:
 /// by branch and bound, to hull_gap_width() unless that takes too many parts of triangles. Throws Stopped.
-Bounds measure_hull_gap(const Solid& solid, std::span<const BallHull> hulls, const Threads& threads);
-/// The difference of these bounds: a thousandth of the diagonal, and rounding.
-double hull_gap_width(const Solid& solid);
+Bounds measure_hull_gap(const Solid& solid, std::span<const BallHull> hulls, double goal, const Threads& threads);
+/// The difference of these bounds: a thousandth of the diagonal, or less if a `goal` above 0 needs it, and rounding.
+double hull_gap_width(const Solid& solid, double goal);
 
 }  // namespace medial_vk

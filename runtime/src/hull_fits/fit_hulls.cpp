@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <mutex>
 #include <utility>
 
 #include "base/format_text.h"
 #include "base/host_memory.h"
 #include "hull_fits/final_hulls.h"
+#include "hull_fits/heartbeat.h"
 #include "hull_fits/search/hull_family.h"
 #include "medial_vk/certify.h"
 #include "medial_vk/hull_fits.h"
@@ -25,7 +25,7 @@ constexpr std::uint32_t kFinestResolution = 480;
 constexpr double kGreatestWidth = 1e-3, kLeastWidth = 1e-5, kWidthOfUncovered = 0.02;
 constexpr std::array kKinds = {HullChoice::kBalls, HullChoice::kCapsules, HullChoice::kCones, HullChoice::kSlabs};
 
-HullShape shape_of(HullChoice choice) {
+SoughtHulls sought_of(HullChoice choice) {
   switch (choice) {
     case HullChoice::kCapsules:
       return {2, true};
@@ -78,9 +78,9 @@ class HullFitter {
       : solid_(solid),
         options_(options),
         extractor_(extractor),
-        progress_(progress),
         stop_(stop),
-        threads_(options.threads, [this] { return !stop_.stop_requested(); }) {}
+        threads_(options.threads, [this] { return !stop_.stop_requested(); }),
+        heartbeat_(progress) {}
 
   Result<HullFit> run() {
     if (Status status = check_options(options_, solid_); !status) return status.error();
@@ -133,7 +133,7 @@ class HullFitter {
     if (choice == HullChoice::kBalls) return fit_balls(most);
     if (Status status = find_medial_balls(); !status) return status.error();
     if (medial_.empty()) return Error{ErrorCode::kInvalidMesh, "no hull fits into the solid: it has no medial points"};
-    HullFamily family(solid_, medial_, shape_of(choice), {}, threads_);
+    HullFamily family(solid_, medial_, sought_of(choice), {}, threads_);
     return fewest(family, most);
   }
 
@@ -144,9 +144,11 @@ class HullFitter {
     std::size_t below = 0;
     for (std::size_t top = 1;; top = HullFamily::top_for(top + 1)) {
       Result<HullFit> found = measured(family, std::min(top, most));
-      if (!found) return found;
-      if (meets_goals(found.value())) return fewest_between(family, below, std::min(top, most), std::move(found));
-      if (top >= most || found.value().hulls.size() < top) return unmet(found.value());
+      const bool is_last = top >= most || searched_ < top;
+      if (!found && (is_last || found.error().code != ErrorCode::kInvalidMesh)) return found;
+      if (found && meets_goals(found.value()))
+        return fewest_between(family, below, std::min(top, most), std::move(found));
+      if (is_last) return unmet(found.value(), searched_ < std::min(top, most));
       below = top;
     }
   }
@@ -156,8 +158,8 @@ class HullFitter {
     while (enough - below > 1) {
       const std::size_t middle = below + (enough - below) / 2;
       Result<HullFit> found = measured(family, middle);
-      if (!found) return found;
-      if (meets_goals(found.value())) {
+      if (!found && found.error().code != ErrorCode::kInvalidMesh) return found;
+      if (found && meets_goals(found.value())) {
         best = std::move(found);
         enough = middle;
       } else {
@@ -173,14 +175,20 @@ class HullFitter {
     return options_.max_gap == 0 || fit.gap.upper <= options_.max_gap;
   }
 
-  Error unmet(const HullFit& fit) const {
+  /// `has_ended`: the search finds no more hulls, so that a greater number would not help.
+  Error unmet(const HullFit& fit, bool has_ended) const {
     const std::size_t count = fit.hulls.size();
     const char* verb = count == 1 ? "hull leaves" : "hulls leave";
-    if (options_.max_gap > 0 && fit.gap.upper > options_.max_gap)
+    const bool by_gap = options_.max_gap > 0 && fit.gap.upper > options_.max_gap;
+    const std::string what =
+        by_gap ? format_text("a gap of {:.4g}", fit.gap.upper)
+               : format_text("{:.4g} of the volume uncovered", 1 - fit.covered.lower / *fit.solid_volume);
+    const char* goal = by_gap ? "`max_gap`" : "`error`";
+    if (has_ended) {
       return {ErrorCode::kUsage,
-              format_text("{} {} a gap of {:.4g}; raise `count` or `max_gap`", count, verb, fit.gap.upper)};
-    return {ErrorCode::kUsage, format_text("{} {} {:.4g} of the volume uncovered; raise `count` or `error`", count,
-                                           verb, 1 - fit.covered.lower / *fit.solid_volume)};
+              format_text("{} {} {}, and the search finds no more; raise {}", count, verb, what, goal)};
+    }
+    return {ErrorCode::kUsage, format_text("{} {} {}; raise `count` or {}", count, verb, what, goal)};
   }
 
   Status find_medial_balls() {
@@ -196,7 +204,7 @@ class HullFitter {
   }
 
   Status extract(const ExtractionOptions& options) {
-    const StageProgress report = [&](const char*, double done) { tell("medial points", done); };
+    const StageProgress report = [&](const char*, double done) { heartbeat_.tell("medial points", done); };
     const Result<CertifiedExtraction> found = extract_and_certify(solid_.indexed(), options, extractor_, report, stop_);
     if (!found) return found.error();
     medial_.clear();
@@ -208,12 +216,14 @@ class HullFitter {
   }
 
   Result<HullFit> measured(HullFamily& family, std::size_t count) {
-    const std::vector<BallHull> set = family.set_of(count, [&](double done) { tell("hulls", done); });
+    const std::vector<BallHull> set = family.set_of(count, [&](double done) { heartbeat_.tell("hulls", done); });
     if (set.empty()) return Error{ErrorCode::kInvalidMesh, "no hull fits into the solid"};
+    searched_ = set.size();
     FreedHulls freed = free_hulls(solid_, set, threads_);
     if (freed.hulls.empty()) return Error{ErrorCode::kInvalidMesh, "no hull fits into the solid with a proof"};
     HullFit fit;
     fit.hulls = std::move(freed.hulls);
+    fit.left_out = set.size() - fit.hulls.size();
     fit.greatest_shrink = freed.greatest_shrink;
     return with_measures(std::move(fit));
   }
@@ -226,40 +236,41 @@ class HullFitter {
     // The bounds of volume and gap below have a width, and must meet the goals, too.
     const double width = options_.width > 0 ? options_.width : derived_width(options_.error);
     options.error = std::max(0.5 * options_.error, options_.error - width);
-    options.max_gap = std::max(0.5 * options_.max_gap, options_.max_gap - hull_gap_width(solid_));
+    options.max_gap = std::max(0.5 * options_.max_gap, options_.max_gap - hull_gap_width(solid_, options_.max_gap));
     options.resolution = options_.resolution;
     options.threads = options_.threads;
     options.balls_only = by_number;
     const StageProgress report = [&](const char* stage, double done) {
-      tell(std::string_view(stage) == "medial points" ? "medial points" : "hulls", done);
+      heartbeat_.tell(std::string_view(stage) == "medial points" ? "medial points" : "hulls", done);
     };
     const Result<SphereFit> found = fit_spheres(solid_.indexed(), options, extractor_, report, stop_);
     if (!found) return found.error();
     HullFit fit;
     for (const Ball& ball : found.value().levels.back()) fit.hulls.push_back(hull_of(ball));
     FreedHulls freed = free_hulls(solid_, fit.hulls, threads_);
+    fit.left_out = fit.hulls.size() - freed.hulls.size();
     if (freed.hulls.empty()) return Error{ErrorCode::kInvalidMesh, "no ball fits into the solid with a proof"};
     fit.hulls = std::move(freed.hulls);
     fit.greatest_shrink = freed.greatest_shrink;
     Result<HullFit> measured = with_measures(std::move(fit));
     if (!measured || meets_goals(measured.value())) return measured;
-    return unmet(measured.value());
+    return unmet(measured.value(), false);
   }
 
   Result<HullFit> with_measures(HullFit fit) {
-    tell("measures", 0);
+    heartbeat_.tell("measures", 0);
     fit.proof = prove_hulls(solid_, fit.hulls, threads_);
     if (!fit.proof.proved()) {
       return Error{ErrorCode::kInternal,
                    format_text("{} of {} hulls are not proved to lie inside", fit.proof.failed, fit.proof.tested)};
     }
     if (solid_.has_volume()) fit.solid_volume = solid_.volume();
-    fit.gap = measure_hull_gap(solid_, fit.hulls, threads_);
-    tell("measures", 0.5);
+    fit.gap = measure_hull_gap(solid_, fit.hulls, options_.max_gap, threads_);
+    heartbeat_.tell("measures", 0.5);
     const Result<Bounds> covered = measure_covered(fit);
     if (!covered) return covered.error();
     fit.covered = covered.value();
-    tell("measures", 1);
+    heartbeat_.tell("measures", 1);
     return fit;
   }
 
@@ -282,19 +293,14 @@ class HullFitter {
     return greatest;
   }
 
-  void tell(const char* stage, double done) {
-    const std::lock_guard lock(mutex_);
-    if (progress_) progress_(stage, done);
-  }
-
   const Solid& solid_;
   const HullFitOptions& options_;
   const Extractor& extractor_;
-  const StageProgress& progress_;
   const std::stop_token& stop_;
   Threads threads_;
-  std::mutex mutex_;
+  Heartbeat heartbeat_;
   std::vector<Ball> medial_;
+  std::size_t searched_ = 0;  // hulls of the last set of a search, before any was left out
 };
 
 }  // namespace

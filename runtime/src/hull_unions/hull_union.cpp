@@ -23,9 +23,10 @@
 namespace medial_vk {
 namespace {
 
+constexpr double kFarthest = 1e18;  // cubes of what is nearer stay far from the ends of double
 constexpr std::size_t kMostUnionHulls = 1u << 20;
-constexpr std::size_t kMostUnionCells = 1u << 28;
-/// The union is refused at once if so many cells are expected. Where few cells are known to be inside or outside, the
+constexpr std::size_t kMostUnionCells = 1u << 24;  // of all levels: a gigabyte, and some ten seconds
+/// A greater width is taken where so many cells are expected. Where few cells are known to be inside or outside, the
 /// expected number is too great.
 constexpr double kMostExpectedCells = 64.0 * kMostUnionCells;
 /// Steps of the search for a threshold: a few to its order of magnitude, the others by halving.
@@ -47,7 +48,7 @@ struct BlockLists {
 class UnionMeasure {
  public:
   UnionMeasure(std::span<const BallHull> hulls, const HullUnionOptions& options, const std::stop_token& stop)
-      : options_(options), watch_(no_progress_, stop) {
+      : options_(options), watch_(no_progress_, stop), width_(options.width) {
     HullBounds box = {{0, 0, 0}, {0, 0, 0}};
     for (const BallHull& hull : hulls) {
       bool solid = false;
@@ -79,9 +80,10 @@ class UnionMeasure {
       test_level();
       choose_cells();
       if (divided_.empty()) break;
-      if (tested_ + 8 * divided_.size() > kMostUnionCells || too_many_expected_ || level_ == 31) {
-        return Error{ErrorCode::kUsage,
-                     "the width of the volume's bounds needs more than 2^28 cells; use a greater one"};
+      if (tested_ + 8 * divided_.size() > kMostUnionCells || level_ == 31) {
+        // The bounds are proved as they are; they only differ by more than was requested.
+        for (const std::size_t i : divided_) keep(i);
+        break;
       }
       divide();
     }
@@ -133,7 +135,9 @@ class UnionMeasure {
       }
     }
     if (divided_.empty()) return;
-    const double rest = options_.width - kept_gap_.value();
+    // Where rounding has used up the width, as much again is spent on the cells that can still be divided.
+    const double kept = kept_gap_.value();
+    const double rest = kept < 0.9 * width_ ? width_ - kept : std::max(kept, width_);
     const double greatest = open <= rest ? std::numeric_limits<double>::infinity() : greatest_kept_gap(rest);
     std::size_t count = 0;
     for (const std::size_t i : divided_) {
@@ -181,8 +185,9 @@ class UnionMeasure {
         parts *= 4;
       }
     }
-    too_many_expected_ = !(cells < kMostExpectedCells);
-    return below;
+    if (cells < kMostExpectedCells) return below;
+    width_ += 7 * rest;  // that much cannot be reached
+    return greatest_kept_gap(8 * rest);
   }
 
   void keep(std::size_t i) {
@@ -235,7 +240,7 @@ class UnionMeasure {
   double half_ = 0;  // of the side of the level's cells
   unsigned level_ = 0;
   std::size_t tested_ = 0;
-  bool too_many_expected_ = false;
+  double width_;  // that of the options, or a greater one that can be reached
   std::vector<UnionCell> cells_;
   std::vector<std::uint32_t> lists_;
   std::vector<CoveredCell> covered_;
@@ -252,9 +257,9 @@ std::optional<Error> union_error(std::span<const BallHull> hulls, const HullUnio
       return Error{ErrorCode::kUsage, format_text("hull {} has {} balls instead of 1 to 3", i, hulls[i].count)};
     }
     for (const Ball& ball : hulls[i].balls()) {
-      const bool finite = std::isfinite(ball.centre[0]) && std::isfinite(ball.centre[1]) &&
-                          std::isfinite(ball.centre[2]) && std::isfinite(ball.radius);
-      if (!finite) return Error{ErrorCode::kUsage, format_text("hull {} has a number that is not finite", i)};
+      bool is_near = std::fabs(ball.radius) <= kFarthest;
+      for (const double x : ball.centre) is_near = is_near && std::fabs(x) <= kFarthest;
+      if (!is_near) return Error{ErrorCode::kUsage, format_text("hull {} is not finite or beyond {:g}", i, kFarthest)};
       if (ball.radius < 0) return Error{ErrorCode::kUsage, format_text("hull {} has a negative radius", i)};
     }
   }

@@ -33,7 +33,13 @@ std::string hulls_text(const HullRecord& record) {
     if (!text.empty()) text += ", ";
     text += counted(kinds[k], name_of(static_cast<HullKind>(k)), kManyOfKind[k]);
   }
-  return fmt::format("{} with {}", text, counted(parameters_in(record.fit.hulls), "number", "numbers"));
+  text = fmt::format("{} with {}", text, counted(parameters_in(record.fit.hulls), "number", "numbers"));
+  const std::size_t left_out = record.fit.left_out;
+  if (left_out > 0) text += fmt::format("; {} left out beside openings of the mesh", left_out);
+  if (record.fit.hulls.size() + left_out < record.options.count && record.options.parameters == 0 &&
+      record.options.error == 0 && record.options.max_gap == 0)
+    text += "; the search finds no more";
+  return text;
 }
 
 /// Two bounds with the digits in which they differ, and at least three.

@@ -39,7 +39,7 @@ std::vector<BallHull> ordered_by_gain(std::span<const BallHull> hulls, CoverageL
 
 }  // namespace
 
-HullFamily::HullFamily(const Solid& solid, std::span<const Ball> medial, const HullShape& shape,
+HullFamily::HullFamily(const Solid& solid, std::span<const Ball> medial, const SoughtHulls& shape,
                        const HullSearchEffort& effort, const Threads& threads)
     : solid_(solid),
       medial_(medial),

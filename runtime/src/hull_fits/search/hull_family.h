@@ -20,7 +20,7 @@ namespace medial_vk {
 class HullFamily {
  public:
   /// Keeps references to the solid and the medial balls.
-  HullFamily(const Solid& solid, std::span<const Ball> medial, const HullShape& shape, const HullSearchEffort& effort,
+  HullFamily(const Solid& solid, std::span<const Ball> medial, const SoughtHulls& shape, const HullSearchEffort& effort,
              const Threads& threads);
 
   /// At most `count` hulls, at least 1; fewer where the search finds no more. The first hulls add most. `progress` gets
@@ -44,7 +44,7 @@ class HullFamily {
 
   const Solid& solid_;
   std::span<const Ball> medial_;
-  HullShape shape_;
+  SoughtHulls shape_;
   HullSearchEffort effort_;
   Threads threads_;
   std::unique_ptr<HullSearch> search_;

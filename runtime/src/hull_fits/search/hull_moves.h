@@ -13,7 +13,7 @@
 namespace medial_vk {
 
 /// Of all hulls of a search.
-struct HullShape {
+struct SoughtHulls {
   std::uint32_t corners = 1;
   bool equal = false;  ///< All radii of one hull.
 };
@@ -21,7 +21,7 @@ struct HullShape {
 /// Free hulls are long: their corners are medial points of any distance. Several threads may use one object.
 class HullMoves {
  public:
-  HullMoves(const Solid& solid, const FreeRadii& radii, const UncoveredSeeds& seeds, const HullShape& shape)
+  HullMoves(const Solid& solid, const FreeRadii& radii, const UncoveredSeeds& seeds, const SoughtHulls& shape)
       : solid_(solid), radii_(radii), seeds_(seeds), shape_(shape) {}
 
   /// A hull with a corner where the solid is uncovered. No value: the corners drawn do not see each other.
@@ -40,7 +40,7 @@ class HullMoves {
   const Solid& solid_;
   const FreeRadii& radii_;
   const UncoveredSeeds& seeds_;
-  HullShape shape_;
+  SoughtHulls shape_;
 };
 
 }  // namespace medial_vk

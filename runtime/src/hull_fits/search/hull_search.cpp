@@ -5,27 +5,39 @@
 #include <numeric>
 
 #include "base/point_ops.h"
+#include "sphere_fits/quality/surface_samples.h"
+#include "sphere_fits/steps/maximal_ball.h"
 
 namespace medial_vk {
 namespace {
 
 constexpr std::size_t kGeneration = 4;
-constexpr double kFirstStep = 0.5, kLeastStep = 0.01, kMostStep = 1;
-/// Of the diagonal of the box: thinner hulls cover nothing that matters, and radii must not vanish, since the axis of a
-/// hull would otherwise pass through the boundary unseen.
-constexpr double kLeastRadius = 1e-4;
+constexpr double kFirstStep = 0.5, kPolishStep = 0.1, kLeastStep = 0.01, kMostStep = 1;
+/// Of the diagonal of the box, and of the radius that a tenth of the medial balls do not reach: thinner hulls cover
+/// nothing that matters, and radii must not vanish, since the axis of a hull would otherwise pass through the boundary
+/// unseen.
+constexpr double kLeastRadius = 1e-4, kLeastOfThin = 0.1;
 /// Of the diagonal, by which triangles may be in hulls until they are made free in the end.
 constexpr double kTolerance = 1e-8;
 
+double least_radius(const Solid& solid, std::span<const Ball> medial) {
+  std::vector<double> radii;
+  radii.reserve(medial.size());
+  for (const Ball& ball : medial) radii.push_back(ball.radius);
+  const auto tenth = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 10);
+  std::nth_element(radii.begin(), tenth, radii.end());
+  return std::min(kLeastRadius * solid.diagonal(), kLeastOfThin * *tenth);
+}
+
 }  // namespace
 
-HullSearch::HullSearch(const Solid& solid, std::span<const Ball> medial, const HullShape& shape,
+HullSearch::HullSearch(const Solid& solid, std::span<const Ball> medial, const SoughtHulls& shape,
                        const HullSearchEffort& effort, const Threads& threads)
     : solid_(solid),
       effort_(effort),
       threads_(threads),
       pool_(threads.count),
-      radii_(solid, kLeastRadius * solid.diagonal(), kTolerance * solid.diagonal()),
+      radii_(solid, least_radius(solid, medial), kTolerance * solid.diagonal()),
       seeds_(medial),
       moves_(solid, radii_, seeds_, shape),
       lines_(solid.mesh().report.lower, solid.mesh().report.upper, effort.lines) {}
@@ -78,15 +90,52 @@ HullSearch::Trial HullSearch::best_new(std::size_t except) {
   return best;
 }
 
+/// Seeds where the solid is uncovered although all medial balls are covered, or lead to no hull: balls that touch the
+/// boundary at points that are spread evenly over it, each time more of them. False where none is uncovered.
+bool HullSearch::seed_at_boundary() {
+  constexpr std::size_t kMostBoundarySeeds = kFirstBoundarySeeds << 4;
+  std::vector<BallHull> hulls;
+  for (std::size_t i = 0; i < lines_.size(); ++i) hulls.push_back(lines_.hull(i));
+  while (boundary_seeds_ <= kMostBoundarySeeds) {
+    const std::vector<Point> at = sample_surface(solid_.mesh().mesh, boundary_seeds_);
+    std::vector<Ball> balls(at.size());
+    pool_.run(at.size(), 16, [&](std::size_t i) {
+      threads_.check();
+      balls[i] = touching_ball(at[i]);
+    });
+    std::erase_if(balls, [&](const Ball& ball) { return !(ball.radius >= radii_.least()); });
+    seeds_.take(balls, hulls);
+    boundary_seeds_ *= 2;
+    if (seeds_.any()) return true;
+  }
+  return false;
+}
+
+/// A ball that touches the boundary near one of its points and cannot grow; radius 0: none.
+Ball HullSearch::touching_ball(const Point& at) const {
+  const BvhHit hit = solid_.closest(at);
+  const Triangle& corners = solid_.mesh().mesh.triangles[hit.triangle];
+  const std::vector<Point>& vertices = solid_.mesh().mesh.vertices;
+  const Point normal = cross(vertices[corners[1]] - vertices[corners[0]], vertices[corners[2]] - vertices[corners[0]]);
+  const double size = length(normal);
+  if (!(size > 0)) return {at, 0};
+  const Point inside = at - (radii_.least() / size) * normal;
+  return solid_.contains(inside) ? maximal_ball(solid_, inside) : Ball{at, 0};
+}
+
 bool HullSearch::grow() {
-  if (!seeds_.any()) return false;
-  const Trial best = best_new(CoverageLines::kNone);
-  if (!(best.gain > 0)) return false;
-  lines_.add(best.hull);
-  seeds_.add(best.hull);
-  seeds_.update();
-  steps_.push_back(0.1);
-  return true;
+  while (seeds_.any() || seed_at_boundary()) {
+    const Trial best = best_new(CoverageLines::kNone);
+    if (best.gain > 0) {
+      lines_.add(best.hull);
+      seeds_.add(best.hull);
+      seeds_.update();
+      steps_.push_back(kPolishStep);
+      return true;
+    }
+    if (!seed_at_boundary()) return false;
+  }
+  return false;
 }
 
 void HullSearch::replace(std::size_t i, const Trial& trial) {
@@ -112,7 +161,7 @@ void HullSearch::improve() {
     const Trial best = best_new(i);
     if (!(best.gain > lines_.gain(lines_.hull(i), i))) continue;
     replace(i, best);
-    steps_[i] = 0.1;
+    steps_[i] = kPolishStep;
   }
 }
 

@@ -28,7 +28,7 @@ struct HullSearchEffort {
 class HullSearch {
  public:
   /// `medial`: balls of the medial points of the solid, at least one.
-  HullSearch(const Solid& solid, std::span<const Ball> medial, const HullShape& shape, const HullSearchEffort& effort,
+  HullSearch(const Solid& solid, std::span<const Ball> medial, const SoughtHulls& shape, const HullSearchEffort& effort,
              const Threads& threads);
 
   const CoverageLines& lines() const { return lines_; }
@@ -38,11 +38,15 @@ class HullSearch {
   void improve();
 
  private:
+  static constexpr std::size_t kFirstBoundarySeeds = 2048;
+
   struct Trial {
     BallHull hull;
     double gain = 0;
   };
 
+  bool seed_at_boundary();
+  Ball touching_ball(const Point& at) const;
   std::vector<Trial> propose(std::size_t except);
   Trial best_new(std::size_t except);
   void climb(Trial& trial, double& step, std::size_t generations, std::size_t except);
@@ -56,6 +60,7 @@ class HullSearch {
   UncoveredSeeds seeds_;
   HullMoves moves_;
   CoverageLines lines_;
+  std::size_t boundary_seeds_ = kFirstBoundarySeeds;
   std::vector<double> steps_;  // by hull: of its climbs
   std::uint64_t draws_ = 0;
 };

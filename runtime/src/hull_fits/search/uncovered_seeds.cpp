@@ -21,17 +21,22 @@ Point point_in(const Ball& ball, SplitMix& random) {
 
 }  // namespace
 
-UncoveredSeeds::UncoveredSeeds(std::span<const Ball> medial) {
-  const std::size_t stride = (medial.size() + kMostBalls - 1) / kMostBalls;
-  balls_.reserve(medial.size() / stride + 1);
-  for (std::size_t i = 0; i < medial.size(); i += stride) balls_.push_back(medial[i]);
+UncoveredSeeds::UncoveredSeeds(std::span<const Ball> medial) { take(medial, {}); }
+
+void UncoveredSeeds::take(std::span<const Ball> balls, std::span<const BallHull> hulls) {
+  const std::size_t stride = std::max<std::size_t>(1, (balls.size() + kMostBalls - 1) / kMostBalls);
+  balls_.clear();
+  balls_.reserve(balls.size() / stride + 1);
+  for (std::size_t i = 0; i < balls.size(); i += stride) balls_.push_back(balls[i]);
+  points_.clear();
   points_.reserve(balls_.size() * kPoints);
   SplitMix random(1);
   for (const Ball& ball : balls_) {
     for (std::size_t k = 0; k < kPoints; ++k) points_.push_back(point_in(ball, random));
   }
-  holders_.resize(points_.size());
-  sums_.resize(balls_.size());
+  holders_.assign(points_.size(), 0);
+  sums_.assign(balls_.size(), 0);
+  for (const BallHull& hull : hulls) add(hull);
   update();
 }
 

@@ -20,6 +20,8 @@ class UncoveredSeeds {
   /// Of at least one ball; some are left out where there are too many.
   explicit UncoveredSeeds(std::span<const Ball> medial);
 
+  /// Takes these balls in the place of the others, none of which has an uncovered point any more, and these hulls.
+  void take(std::span<const Ball> balls, std::span<const BallHull> hulls);
   void add(const BallHull& hull) { count(hull, 1); }
   void remove(const BallHull& hull) { count(hull, -1); }
   /// To be called after changes, before draws.
@@ -28,7 +30,7 @@ class UncoveredSeeds {
   /// A ball at random.
   const Ball& draw(SplitMix& random) const;
   /// False if no point is uncovered.
-  bool any() const { return sums_.back() > 0; }
+  bool any() const { return !sums_.empty() && sums_.back() > 0; }
 
  private:
   static constexpr std::size_t kPoints = 8;  // of a ball
