@@ -23,7 +23,8 @@ constexpr std::size_t kFewPoints = 200;
 constexpr std::uint32_t kFinestResolution = 480;
 /// Of the bounds of the volume, as shares of the solid's.
 constexpr double kGreatestWidth = 1e-3, kLeastWidth = 1e-5, kWidthOfUncovered = 0.02;
-constexpr std::array kKinds = {HullChoice::kBalls, HullChoice::kCapsules, HullChoice::kCones, HullChoice::kSlabs};
+constexpr std::array<HullChoice, 4> kKinds = {HullChoice::kBalls, HullChoice::kCapsules, HullChoice::kCones,
+                                              HullChoice::kSlabs};
 
 SoughtHulls sought_of(HullChoice choice) {
   switch (choice) {
