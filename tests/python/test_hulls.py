@@ -31,8 +31,8 @@ class Hulls(unittest.TestCase):
         self.assertLess(upper, self.fit.solid_volume)
         self.assertAlmostEqual(self.fit.solid_volume, 0.24)
         self.assertLess(self.fit.uncovered_share[1], 0.5, "six balls would leave 98 %")
-        finer = self.fit.hulls.volume(1e-6)
-        self.assertLessEqual(finer[1] - finer[0], 1e-6)
+        finer = self.fit.hulls.volume(1e-5)
+        self.assertLessEqual(finer[1] - finer[0], 1e-5)
         self.assertTrue(finer[0] <= upper and lower <= finer[1])
 
     def test_distances(self):
