@@ -12,6 +12,7 @@ using std::numbers::pi;
 
 /// Points at which the lengths of curves on the sphere of directions are measured.
 constexpr std::size_t kCurvePoints = 16;
+constexpr std::size_t kCurveEnds = kCurvePoints + 1;  // of its pieces
 
 double angle_of(double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); }
 
@@ -181,7 +182,7 @@ void HullRows::fill_part(const SlabSector& sector, double share, RowPart& part) 
   part.normals.clear();
   part.normals.push_back(slab_normal(sector.from, share));
   if (std::fabs(share) == 1 || shape_.balls[sector.ball].radius == 0) return;  // one normal, or one point
-  std::array<double, kCurvePoints + 1> along{};
+  std::array<double, kCurveEnds> along{};
   Point last = part.normals[0];
   const double piece = (sector.to - sector.from) / kCurvePoints;
   for (std::size_t k = 1; k <= kCurvePoints; ++k) {
