@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "base/point_ops.h"
 #include "sphere_fits/quality/surface_samples.h"
@@ -19,6 +18,9 @@ constexpr double kFirstStep = 0.5, kPolishStep = 0.1, kLeastStep = 0.01, kMostSt
 constexpr double kLeastRadius = 1e-4, kLeastOfThin = 0.1;
 /// Of the diagonal, by which triangles may be in hulls until they are made free in the end.
 constexpr double kTolerance = 1e-8;
+
+/// Random numbers that depend on the number of a draw alone, and not on the thread that takes it.
+SplitMix numbers_of_draw(std::uint64_t draw) { return SplitMix(0x9e3779b97f4a7c15ull * (draw + 1)); }
 
 double least_radius(const Solid& solid, std::span<const Ball> medial) {
   std::vector<double> radii;
@@ -66,7 +68,7 @@ void HullSearch::climb(Trial& trial, double& step, std::size_t generations, std:
     draws_ += kGeneration;
     pool_.run(kGeneration, 1, [&](std::size_t i) {
       threads_.check();
-      SplitMix random(0x9e3779b97f4a7c15ull * (first + i + 1));
+      SplitMix random = numbers_of_draw(first + i);
       const auto is_promising = [&](const BallHull& bound) { return lines_.gain(bound, except) > trial.gain; };
       const std::optional<BallHull> hull = moves_.change(trial.hull, step, random, is_promising);
       if (hull) next[i] = {*hull, lines_.gain(*hull, except)};
