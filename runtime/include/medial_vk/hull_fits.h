@@ -36,9 +36,8 @@ struct HullFitOptions {
   std::size_t parameters = 0;  ///< Greatest sum of parameters_of() their kinds; 0: no such goal.
   double error = 0;            ///< Greatest uncovered share of the solid's volume, in [0, 1); 0: no such goal.
   double max_gap = 0;          ///< Greatest distance from the boundary to the hulls, mesh units; 0: no such goal.
-  /// The greatest difference of the bounds HullFit::covered, as a share of the solid's volume, or
-  /// of the largest hull's where that is not known; 0: a fiftieth of the
-  /// share that is left uncovered, within [1e-5, 1e-3].
+  /// The greatest difference of the bounds HullFit::covered, as a share of the solid's volume, or of the largest hull's
+  /// where that is not known; 0: a fiftieth of the share that is left uncovered, within [1e-5, 1e-3].
   double width = 0;
   std::uint32_t resolution = 0;  ///< Of the extraction of medial points, as in ExtractionOptions; 0: derived.
   unsigned threads = 0;          ///< Of the host, 0: one per core. The result does not depend on it.

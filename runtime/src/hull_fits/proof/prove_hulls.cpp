@@ -24,10 +24,9 @@ Status check_numbers(std::span<const BallHull> hulls) {
       bool is_good = ball.radius >= 0 && ball.radius <= kFarthest;
       for (const double x : ball.centre) is_good = is_good && std::fabs(x) <= kFarthest;
       if (is_good) continue;
-      return Error{ErrorCode::kUsage,
-                   format_text("hull {} of `hulls` is not finite, has a negative radius or is beyond "
-                               "{:g}",
-                               i, kFarthest)};
+      return Error{
+          ErrorCode::kUsage,
+          format_text("hull {} of `hulls` is not finite, has a negative radius or is beyond {:g}", i, kFarthest)};
     }
   }
   return {};
