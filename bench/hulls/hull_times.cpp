@@ -86,6 +86,7 @@ std::vector<BallHull> ring_of_cones() {
                 0.1 + 0.03 * std::sin(5 * angle)};
   };
   std::vector<BallHull> hulls;
+  hulls.reserve(64);
   for (int i = 0; i < 64; ++i) hulls.push_back(hull_of(ball(i), ball((i + 1) % 64)));
   return hulls;
 }
